@@ -4,56 +4,56 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(X){"use strict";var
-lA="spatial",tg="Invalid_argument",iy="precision",aW='"',lz=1255,iG="inside",se="(",sf=0x800,tf="yaw",sb="range",sc="tree",sd="jsError",cy=0x8000,te="sqrt(",sa=256,ix="obligation",td="load",gv="offset",by="machine",r$="End_of_file",fd="strut",ly="center",gu="arm",lx="Failure",tc="serial_margin",iF="parameters",c1=0xff,tb="bodies",ta="max_angle",lL="outside",gt="base_axis",lw="ENOENT",s$="singular",s_=122,r_="([^/]+)",s9="0",lv=0xf,gs=128,r9=0xdc00,s7="Sys_blocked_io",s8="fd ",gk="given",r8="ENOTEMPTY",bc=248,iw="bound",r7="Division_by_zero",s5="by",s6=1027,r6="Sys_error",gr="slider",r5="torsion",s4="postulate",r4="proof",lK="joint_error",gq="refuted",e8="mechanism",iv="row",r3="EEXIST",s3="roll_pitch_yaw",gp="y",r2="cube",dB="lower",s2="within",r1="clearance",s1="turned",r0="control",iu="int_of_string",rZ="between",sZ="definitions",s0="dependent",go=1024,rX="from",rY="name",sY=" : flags Open_rdonly and Open_wronly are not compatible",rW="orthocert/2",sX="reach",rV=512,sV="base_joint",sW="witness",fc="-",br="platform",rU=0x7ff0,rT="pitch",lJ=": Not a directory",bT="min",sT="trim",fb="workspace",sU=" : file already exists",it="split",lI="legs",sS="claim",lu="joint",el=0xffffff,rS="platform_joint",rR="formulas",rQ="roll",is="atlas",sP="greatest",sQ="nodes",sR="Out_of_memory",rP="psi_max",iE="orientation",ir=254,sO="angle",lH="index out of bounds",rO="end",sN="one_to_one",iD="_bigarr02",rN=" : flags Open_text and Open_binary are not compatible",sM="inverse",bx="drive",rM="coordinates",sL="holds",iq="lower_divided",rL="speed",sJ="cylinder",sK="joints",c0=0xffff,sF="a leaf that fails",sG="acceleration",sH="force",gm="certified",gn="chords",sI=12520,lt="on",sE="same",e7="accuracy",gl="axis",sD="no_cube",sC="parallel_margin",rK='the drive "',ls="Unix.Unix_error",iC="fails",ip="tool",lr="mkdir",sA="rho",sB="least",iB=1000,lq="translational",iA="tolerances",rJ="Stack_overflow",lG="characteristic_length",ah="",lF="^",im="places",io=": No such file or directory",rI="/static/",fa=0x3f,rG="stiffness",rH="Not_found",cx="planar",gj="mode",sz="joint_speed",sy="Match_failure",rF="transmission",bS="anchor",sx="at",rE="joint_force",e$="leg",rD="joint_acceleration",iz="+",lp="rmdir",sw=0xf0,sv="spherical",rC=1026,st="REJECTED",su="undecided",bV="max",bU="direction",rA="leg_angle",rB="orthoglide",e_="rank",sr="constraint_margin",ss="fan",rx="the acceleration of a joint of a machine with a plane",gi="test",ry="Pervasives.do_at_exit",rz="utf8",cb=0x80,e9="conditioning",e6="length",rw="Undefined_recursive_module",lE=")",rv="base",sq="quantity",ru="joint_range",il="tilt",lD="divided",rt="Q2",sp="reference",rs="point",sn="corner",so=0xe0,rr="version",lC="z",sl="to",sm=0xdfff,lo="compare: functional value",sk="Assert_failure",cd="/",sj="provenance",ek="radius",ik="side",sh=-14,cc="require",si="format",rq="Q1",lB="ENOTDIR",rp="all",ej="box",sg=250;function
-lY(c,b,a){var
+lJ="spatial",tu="Invalid_argument",iE="precision",aW='"',lI=1255,iM="inside",ss="(",st=0x800,tt="yaw",sp="range",sq="tree",sr="jsError",cC=0x8000,ts="sqrt(",so=256,iD="obligation",tr="load",gD="offset",bB="machine",sn="End_of_file",fn="strut",lH="center",gC="arm",lG="Failure",tq="serial_margin",iL="parameters",c5=0xff,tp="bodies",to="max_angle",lU="outside",gB="base_axis",lF="ENOENT",tn="singular",tm=122,sm="([^/]+)",tl="0",lE=0xf,gA=128,sl=0xdc00,tj="Sys_blocked_io",tk="fd ",gs="given",sk="ENOTEMPTY",bc=248,iC="bound",sj="Division_by_zero",th="by",ti=1027,si="Sys_error",gz="slider",sh="torsion",tg="postulate",sg="proof",lT="joint_error",gy="refuted",fg="mechanism",iB="row",sf="EEXIST",tf="roll_pitch_yaw",gx="y",se="cube",dH="lower",te="within",sd="clearance",td="turned",sc="control",iA="int_of_string",sb="between",tb="definitions",tc="dependent",gw=1024,r$="from",sa="name",ta=" : flags Open_rdonly and Open_wronly are not compatible",r_="orthocert/2",s$="reach",r9=512,s9="base_joint",s_="witness",fm="-",bu="platform",r8=0x7ff0,r7="pitch",lS=": Not a directory",bV="min",s7="trim",fl="workspace",s8=" : file already exists",iz="split",lR="legs",s6="claim",lD="joint",es=0xffffff,r6="platform_joint",r5="formulas",r4="roll",iy="atlas",s3="greatest",s4="nodes",s5="Out_of_memory",r3="psi_max",iK="orientation",ix=254,s2="angle",lQ="index out of bounds",r2="end",s1="one_to_one",iJ="_bigarr02",r1=" : flags Open_text and Open_binary are not compatible",s0="inverse",bA="drive",r0="coordinates",sZ="holds",iw="lower_divided",rZ="speed",sX="cylinder",sY="joints",c4=0xffff,sT="a leaf that fails",sU="acceleration",sV="force",gu="certified",gv="chords",sW=12520,lC="on",sS="same",ff="accuracy",gt="axis",sR="no_cube",sQ="parallel_margin",rY='the drive "',lB="Unix.Unix_error",iI="fails",iv="tool",lA="mkdir",sO="rho",sP="least",iH=1000,lz="translational",iG="tolerances",rX="Stack_overflow",lP="characteristic_length",ah="",lO="^",it="places",iu=": No such file or directory",rW="/static/",fk=0x3f,rU="stiffness",rV="Not_found",cB="planar",gr="mode",sN="joint_speed",sM="Match_failure",rT="transmission",bU="anchor",sL="at",rS="joint_force",fj="leg",rR="joint_acceleration",iF="+",ly="rmdir",sK=0xf0,sJ="spherical",rQ=1026,sH="REJECTED",sI="undecided",bX="max",bW="direction",rO="leg_angle",rP="orthoglide",fi="rank",sF="constraint_margin",sG="fan",rL="the acceleration of a joint of a machine with a plane",gq="test",rM="Pervasives.do_at_exit",rN="utf8",cf=0x80,fh="conditioning",fe="length",rK="Undefined_recursive_module",lN=")",rJ="base",sE="quantity",rI="joint_range",is="tilt",lM="divided",rH="Q2",sD="reference",rG="point",sB="corner",sC=0xe0,rF="version",lL="z",sz="to",sA=0xdfff,lx="compare: functional value",sy="Assert_failure",ch="/",sx="provenance",er="radius",ir="side",sv=-14,cg="require",sw="format",rE="Q1",lK="ENOTDIR",rD="all",eq="box",su=250;function
+l7(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=ah;for(;0<a;b+=go,a-=go)e+=d.apply(null,c.slice(b,b+Math.min(a,go)));return e}function
-iI(b){if(X.Uint8Array)var
+e=ah;for(;0<a;b+=gw,a-=gw)e+=d.apply(null,c.slice(b,b+Math.min(a,gw)));return e}function
+iO(b){if(X.Uint8Array)var
 c=new(X.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-gw(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?lY(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?lY(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)iI(b);var
+gE(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?l7(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?l7(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)iO(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-fg(a){return a}function
-ff(a,b,c,d,e){gw(fg(a),b,c,d,e);return 0}function
-lN(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+fq(a){return a}function
+fp(a,b,c,d,e){gE(fq(a),b,c,d,e);return 0}function
+lW(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-dD(c,a){if(c.fun)return dD(c.fun,a);if(typeof
+c6(c,a){if(c.fun)return c6(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return dD(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return c6(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return dD(c,d)}}function
-tH(b,a){if(b==0)return ah;if(a.repeat)return a.repeat(b);var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return c6(c,d)}}function
+tV(b,a){if(b==0)return ah;if(a.repeat)return a.repeat(b);var
 d=ah,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-fh(a){if(a.t==2)a.c+=tH(a.l-a.c.length,"\0");else
-a.c=lY(a.c,0,a.c.length);a.t=0}function
-fi(a){a.t&6&&fh(a);return a.c}var
-Lj=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-Li(a){if(Lj)return Math.floor(Math.log2(a));var
+fr(a){if(a.t==2)a.c+=tV(a.l-a.c.length,"\0");else
+a.c=l7(a.c,0,a.c.length);a.t=0}function
+fs(a){a.t&6&&fr(a);return a.c}var
+LE=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+LD(a){if(LE)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-lQ(c){var
+lZ(c){var
 a=new(X.Float32Array)(1);a[0]=c;var
 b=new(X.Int32Array)(a.buffer);return b[0]|0}var
-tz=Math.pow(2,-24);function
-K$(a){throw a}var
-aK=[0];function
-tE(){K$(aK.Division_by_zero)}function
-U(b,c,a){this.lo=b&el;this.mi=c&el;this.hi=a&c0}U.prototype.caml_custom="_j";U.prototype.copy=function(){return new
+tN=Math.pow(2,-24);function
+Lu(a){throw a}var
+aL=[0];function
+tS(){Lu(aL.Division_by_zero)}function
+U(b,c,a){this.lo=b&es;this.mi=c&es;this.hi=a&c4}U.prototype.caml_custom="_j";U.prototype.copy=function(){return new
 U(this.lo,this.mi,this.hi)};U.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};U.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};U.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
@@ -62,7 +62,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 U(b,c,d)};U.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 U(b,c,d)};U.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*tz|0)+this.mi*a.lo+this.lo*a.mi,d=(c*tz|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*tN|0)+this.mi*a.lo+this.lo*a.mi,d=(c*tN|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 U(b,c,d)};U.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};U.prototype.isNeg=function(){return this.hi<<16<0};U.prototype.and=function(a){return new
 U(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};U.prototype.or=function(a){return new
 U(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};U.prototype.xor=function(a){return new
@@ -76,27 +76,27 @@ U(this.hi>>a-48,0,0)};U.prototype.shift_right=function(a){a=a&63;if(a==0)return 
 c=this.hi<<16>>16;if(a<24)return new
 U(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-U(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&c0);return new
-U(this.hi<<16>>a-32,b,b)};U.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&el;this.lo=this.lo<<1&el};U.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&el;this.mi=(this.mi>>>1|this.hi<<23)&el;this.hi=this.hi>>>1};U.prototype.udivmod=function(e){var
+U(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&c4);return new
+U(this.hi<<16>>a-32,b,b)};U.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&es;this.lo=this.lo<<1&es};U.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&es;this.mi=(this.mi>>>1|this.hi<<23)&es;this.hi=this.hi>>>1};U.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 U(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};U.prototype.div=function(a){var
-b=this;if(a.isZero())tE();var
-d=b.hi^a.hi;if(b.hi&cy)b=b.neg();if(a.hi&cy)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&cy)c=c.neg();return c};U.prototype.mod=function(b){var
-a=this;if(b.isZero())tE();var
-d=a.hi;if(a.hi&cy)a=a.neg();if(b.hi&cy)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&cy)c=c.neg();return c};U.prototype.toInt=function(){return this.lo|this.mi<<24};U.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};U.prototype.toArray=function(){return[this.hi>>8,this.hi&c1,this.mi>>16,this.mi>>8&c1,this.mi&c1,this.lo>>16,this.lo>>8&c1,this.lo&c1]};U.prototype.lo32=function(){return this.lo|(this.mi&c1)<<24};U.prototype.hi32=function(){return this.mi>>>8&c0|this.hi<<16};function
-iK(b,c,a){return new
+b=this;if(a.isZero())tS();var
+d=b.hi^a.hi;if(b.hi&cC)b=b.neg();if(a.hi&cC)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&cC)c=c.neg();return c};U.prototype.mod=function(b){var
+a=this;if(b.isZero())tS();var
+d=a.hi;if(a.hi&cC)a=a.neg();if(b.hi&cC)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&cC)c=c.neg();return c};U.prototype.toInt=function(){return this.lo|this.mi<<24};U.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};U.prototype.toArray=function(){return[this.hi>>8,this.hi&c5,this.mi>>16,this.mi>>8&c5,this.mi&c5,this.lo>>16,this.lo>>8&c5,this.lo&c5]};U.prototype.lo32=function(){return this.lo|(this.mi&c5)<<24};U.prototype.hi32=function(){return this.mi>>>8&c4|this.hi<<16};function
+iQ(b,c,a){return new
 U(b,c,a)}function
-iJ(a){if(!isFinite(a)){if(isNaN(a))return iK(1,0,rU);return a>0?iK(0,0,rU):iK(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?cy:a>=0?0:cy;if(f)a=-a;var
-b=Li(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-rC)}else{a/=Math.pow(2,b-s6);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+iP(a){if(!isFinite(a)){if(isNaN(a))return iQ(1,0,r8);return a>0?iQ(0,0,r8):iQ(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?cC:a>=0?0:cC;if(f)a=-a;var
+b=LD(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-rQ)}else{a/=Math.pow(2,b-ti);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&lv|f|b<<4;return iK(g,e,c)}function
-gz(a){return a.toArray()}function
-tn(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==iD)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<c0)c.write(16,b.dims[a]);else{c.write(16,c0);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&lE|f|b<<4;return iQ(g,e,c)}function
+gH(a){return a.toArray()}function
+tB(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==iJ)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<c4)c.write(16,b.dims[a]);else{c.write(16,c4);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -113,51 +113,51 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=gz(b.get(a));for(var
+e=gH(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=gz(iJ(b.get(a)));for(var
+e=gH(iP(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=lQ(b.get(a));c.write(32,e)}break;case
+e=lZ(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,lQ(d[1]));c.write(32,lQ(d[2]))}break;case
+d=b.get(a);c.write(32,lZ(d[1]));c.write(32,lZ(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=gz(iJ(f[1]));for(var
+f=b.get(a),e=gH(iP(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=gz(iJ(f[2]));for(var
+e=gH(iP(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-Lb(b,a){throw[0,b,a]}function
-tM(a){if(a.length<24){for(var
+Lw(b,a){throw[0,b,a]}function
+t0(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-lZ(e){for(var
-j=ah,c=ah,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<cb){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<cb;d++);if(d-b>rV){c.substr(0,1);j+=c;c=ah;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==gs){g=h+(f<<6);if(f<so){a=g-0x3080;if(a<cb)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==gs){g=h+(g<<6);if(f<sw){a=g-0xe2080;if(a<sf||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==gs&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>c0)c+=String.fromCharCode(0xd7c0+(a>>10),r9+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>go){c.substr(0,1);j+=c;c=ah}}return j+c}function
-cz(c,a,b){this.t=c;this.c=a;this.l=b}cz.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:fh(this);case
-0:if(tM(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};cz.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return lZ(a)};cz.prototype.slice=function(){var
+l8(e){for(var
+j=ah,c=ah,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<cf){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<cf;d++);if(d-b>r9){c.substr(0,1);j+=c;c=ah;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==gA){g=h+(f<<6);if(f<sC){a=g-0x3080;if(a<cf)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==gA){g=h+(g<<6);if(f<sK){a=g-0xe2080;if(a<st||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==gA&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>c4)c+=String.fromCharCode(0xd7c0+(a>>10),sl+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>gw){c.substr(0,1);j+=c;c=ah}}return j+c}function
+cD(c,a,b){this.t=c;this.c=a;this.l=b}cD.prototype.toString=function(){switch(this.t){case
+9:return this.c;default:fr(this);case
+0:if(t0(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};cD.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return l8(a)};cD.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-cz(this.t,a,this.l)};function
-tq(a){return new
-cz(0,a,a.length)}function
-a(a){return tq(a)}function
-lX(c,b){Lb(c,a(b))}function
-a5(a){lX(aK.Invalid_argument,a)}function
-tl(a){switch(a){case
+cD(this.t,a,this.l)};function
+tE(a){return new
+cD(0,a,a.length)}function
+a(a){return tE(a)}function
+l6(c,b){Lw(c,a(b))}function
+a6(a){l6(aL.Invalid_argument,a)}function
+tz(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-KF(c,e){var
+K0(c,e){var
 b=X,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -171,52 +171,52 @@ b=X,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)a5("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)a6("Bigarray.create: unsupported kind");var
 d=new
-a(e*tl(c));return d}function
-lR(c){var
+a(e*tz(c));return d}function
+l0(c){var
 a=new(X.Int32Array)(1);a[0]=c;var
 b=new(X.Float32Array)(a.buffer);return b[0]}function
-gy(a){return new
+gG(a){return new
 U(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-lS(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&lv)==0?b&cy?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&lv);if(c>0){a+=16;a*=Math.pow(2,c-s6)}else
-a*=Math.pow(2,-rC);if(b&cy)a=-a;return a}function
-lM(b){var
+l1(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&lE)==0?b&cC?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&lE);if(c>0){a+=16;a*=Math.pow(2,c-ti)}else
+a*=Math.pow(2,-rQ);if(b&cC)a=-a;return a}function
+lV(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)a5("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-KV(b,a){return new
-U(b&el,b>>>24&c1|(a&c0)<<8,a>>>16&c0)}function
-lT(a){return a.hi32()}function
-lU(a){return a.lo32()}function
-iH(){a5(lH)}var
-KG=iD;function
-dC(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dC.prototype.caml_custom=KG;dC.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)a6("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+Le(b,a){return new
+U(b&es,b>>>24&c5|(a&c4)<<8,a>>>16&c4)}function
+l2(a){return a.hi32()}function
+l3(a){return a.lo32()}function
+iN(){a6(lQ)}var
+K1=iJ;function
+dI(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dI.prototype.caml_custom=K1;dI.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))a5("bigarray.js: invalid offset");if(this.dims.length!=b.length)a5("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])iH();c=c*this.dims[a]+b[a]}else
+Array))a6("bigarray.js: invalid offset");if(this.dims.length!=b.length)a6("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])iN();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])iH();c=c*this.dims[a]+(b[a]-1)}return c};dC.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])iN();c=c*this.dims[a]+(b[a]-1)}return c};dI.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return KV(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return Le(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[ir,e,c];default:return this.data[a]}};dC.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=lU(b);this.data[a*2+1]=lT(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[ix,e,c];default:return this.data[a]}};dI.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=l3(b);this.data[a*2+1]=l2(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};dC.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};dI.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=lU(b),e=lT(b);if(c==e)this.data.fill(c);else
+c=l3(b),e=l2(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};dC.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};dI.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -236,26 +236,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-fe(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}fe.prototype=new
-dC();fe.prototype.offset=function(a){if(typeof
+fo(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}fo.prototype=new
+dI();fo.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-a5("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])iH();return a};fe.prototype.get=function(a){return this.data[a]};fe.prototype.set=function(a,b){this.data[a]=b;return 0};fe.prototype.fill=function(a){this.data.fill(a);return 0};function
-tj(c,d,a,b){var
-e=tl(c);if(lM(a)*e!=b.length)a5("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-fe(c,d,a,b);return new
-dC(c,d,a,b)}function
-ce(b){if(!aK.Failure)aK.Failure=[bc,a(lx),-3];lX(aK.Failure,b)}function
-tk(b,v,r){var
-i=b.read32s();if(i<0||i>16)ce("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&c1,o=p>>8&1,h=[];if(r==iD)for(var
+a6("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])iN();return a};fo.prototype.get=function(a){return this.data[a]};fo.prototype.set=function(a,b){this.data[a]=b;return 0};fo.prototype.fill=function(a){this.data.fill(a);return 0};function
+tx(c,d,a,b){var
+e=tz(c);if(lV(a)*e!=b.length)a6("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+fo(c,d,a,b);return new
+dI(c,d,a,b)}function
+ci(b){if(!aL.Failure)aL.Failure=[bc,a(lG),-3];l6(aL.Failure,b)}function
+ty(b,v,r){var
+i=b.read32s();if(i<0||i>16)ci("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&c5,o=p>>8&1,h=[];if(r==iJ)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==c0){var
-t=b.read32u(),u=b.read32u();if(t!=0)ce("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+n=b.read16u();if(n==c4){var
+t=b.read32u(),u=b.read32u();if(t!=0)ci("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=lM(h),f=KF(j,d),g=tj(j,o,h,f);switch(j){case
+d=lV(h),f=K0(j,d),g=tx(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -269,129 +269,129 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)ce("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)ci("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=gy(e);g.set(a,q)}break;case
+q=gG(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=lS(gy(e));g.set(a,k)}break;case
+k=l1(gG(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=lR(b.read32s());g.set(a,k)}break;case
+k=l0(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=lR(b.read32s()),l=lR(b.read32s());g.set(a,[ir,m,l])}break;case
+m=l0(b.read32s()),l=l0(b.read32s());g.set(a,[ix,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=lS(gy(e));for(var
+m=l1(gG(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=lS(gy(e));g.set(a,[ir,m,l])}break}v[0]=(4+i)*4;return tj(j,o,h,f)}function
-ti(a,b,c){return a.compare(b,c)}function
-lW(a,b){return Math.imul(a,b)}function
-c2(b,a){a=lW(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=lW(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-KS(a,b){a=c2(a,lU(b));a=c2(a,lT(b));return a}function
-ty(a,b){return KS(a,iJ(b))}function
-tm(c){var
-b=lM(c.dims),d=0;switch(c.kind){case
+l=l1(gG(e));g.set(a,[ix,m,l])}break}v[0]=(4+i)*4;return tx(j,o,h,f)}function
+tw(a,b,c){return a.compare(b,c)}function
+l5(a,b){return Math.imul(a,b)}function
+c7(b,a){a=l5(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=l5(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+Lb(a,b){a=c7(a,l3(b));a=c7(a,l2(b));return a}function
+tM(a,b){return Lb(a,iP(b))}function
+tA(c){var
+b=lV(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>sa)b=sa;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=c2(d,e)}e=0;switch(b&3){case
+12:if(b>so)b=so;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=c7(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=c2(d,e)}break;case
+1:e|=c.data[a+0];d=c7(d,e)}break;case
 4:case
-5:if(b>gs)b=gs;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=c2(d,e)}if((b&1)!=0)d=c2(d,c.data[a]);break;case
+5:if(b>gA)b=gA;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=c7(d,e)}if((b&1)!=0)d=c7(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=c2(d,c.data[a]);break;case
+a=0;a<b;a++)d=c7(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=c2(d,c.data[a]);break;case
+a=0;a<b;a++)d=c7(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=c2(d,c.data[a]);break;case
+a=0;a<b;a++)d=c7(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=ty(d,c.data[a]);break;case
+a=0;a<b;a++)d=tM(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=ty(d,c.data[a]);break}return d}function
-KT(a,b){b[0]=4;return a.read32s()}function
-K8(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=tM(d,c.data[a]);break}return d}function
+Lc(a,b){b[0]=4;return a.read32s()}function
+Lr(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:ce("input_value: native integer value too large");default:ce("input_value: ill-formed native integer")}}function
-KY(c,d){var
+2:ci("input_value: native integer value too large");default:ci("input_value: ill-formed native integer")}}function
+Lh(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return gy(b)}function
-KX(e,d,b){var
-c=gz(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return gG(b)}function
+Lg(e,d,b){var
+c=gH(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-KU(a,b,c){return a.compare(b)}function
-KW(a){return a.lo32()^a.hi32()}var
-tt={"_j":{deserialize:KY,serialize:KX,fixed_length:8,compare:KU,hash:KW},"_i":{deserialize:KT,fixed_length:4},"_n":{deserialize:K8,fixed_length:4},"_bigarray":{deserialize:function(a,b){return tk(a,b,"_bigarray")},serialize:tn,compare:ti,hash:tm},"_bigarr02":{deserialize:function(a,b){return tk(a,b,iD)},serialize:tn,compare:ti,hash:tm}};function
-lP(a){return tt[a.caml_custom]&&tt[a.caml_custom].compare}function
-tr(f,c,d,e){var
-b=lP(c);if(b){var
+Ld(a,b,c){return a.compare(b)}function
+Lf(a){return a.lo32()^a.hi32()}var
+tH={"_j":{deserialize:Lh,serialize:Lg,fixed_length:8,compare:Ld,hash:Lf},"_i":{deserialize:Lc,fixed_length:4},"_n":{deserialize:Lr,fixed_length:4},"_bigarray":{deserialize:function(a,b){return ty(a,b,"_bigarray")},serialize:tB,compare:tw,hash:tA},"_bigarr02":{deserialize:function(a,b){return ty(a,b,iJ)},serialize:tB,compare:tw,hash:tA}};function
+lY(a){return tH[a.caml_custom]&&tH[a.caml_custom].compare}function
+tF(f,c,d,e){var
+b=lY(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-lV(a){return a
+l4(a){return a
 instanceof
-cz}function
-tA(a){return lV(a)}function
-ts(a){if(typeof
-a==="number")return iB;else
-if(lV(a))return 252;else
-if(tA(a))return 1252;else
+cD}function
+tO(a){return l4(a)}function
+tG(a){if(typeof
+a==="number")return iH;else
+if(l4(a))return 252;else
+if(tO(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==ir?0:b}else
+b=a[0]|0;return b==ix?0:b}else
 if(a
 instanceof
-String)return sI;else
+String)return sW;else
 if(typeof
-a=="string")return sI;else
+a=="string")return sW;else
 if(a
 instanceof
-Number)return iB;else
-if(a&&a.caml_custom)return lz;else
+Number)return iH;else
+if(a&&a.caml_custom)return lI;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-KZ(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-tp(a,b){a.t&6&&fh(a);b.t&6&&fh(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-tI(a,b){return tp(a,b)}function
-lO(a,b,d){var
+Li(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+tD(a,b){a.t&6&&fr(a);b.t&6&&fr(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+tW(a,b){return tD(a,b)}function
+lX(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=ts(a);if(f==sg){a=a[1];continue}var
-g=ts(b);if(g==sg){b=b[1];continue}if(f!==g){if(f==iB){if(g==lz)return tr(a,b,-1,d);return-1}if(g==iB){if(f==lz)return tr(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:a5(lo);break;case
+f=tG(a);if(f==su){a=a[1];continue}var
+g=tG(b);if(g==su){b=b[1];continue}if(f!==g){if(f==iH){if(g==lI)return tF(a,b,-1,d);return-1}if(g==iH){if(f==lI)return tF(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:a6(lx);break;case
 248:var
-c=KZ(a[2],b[2]);if(c!=0)return c|0;break;case
-249:a5(lo);break;case
-250:a5("equal: got Forward_tag, should not happen");break;case
-251:a5("equal: abstract value");break;case
+c=Li(a[2],b[2]);if(c!=0)return c|0;break;case
+249:a6(lx);break;case
+250:a6("equal: got Forward_tag, should not happen");break;case
+251:a6("equal: abstract value");break;case
 252:if(a!==b){var
-c=tp(a,b);if(c!=0)return c|0}break;case
-253:a5("equal: got Double_tag, should not happen");break;case
-254:a5("equal: got Double_array_tag, should not happen");break;case
-255:a5("equal: got Custom_tag, should not happen");break;case
-1247:a5(lo);break;case
+c=tD(a,b);if(c!=0)return c|0}break;case
+253:a6("equal: got Double_tag, should not happen");break;case
+254:a6("equal: got Double_array_tag, should not happen");break;case
+255:a6("equal: got Custom_tag, should not happen");break;case
+1247:a6(lx);break;case
 1255:var
-i=lP(a);if(i!=lP(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)a5("compare: abstract value");var
+i=lY(a);if(i!=lY(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)a6("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -399,182 +399,182 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=fi(a),b=fi(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=fs(a),b=fs(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-KN(a,b){return lO(a,b,true)}function
-cB(a){if(a<0)a5("Bytes.create");return new
-cz(a?2:9,ah,a)}function
-tu(a,b){return+(lO(a,b,false)==0)}function
-KP(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=ah;a.t=2}else{a.c=tH(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)iI(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-K9=0;function
-tw(){return K9++}function
-K1(a){return a.toUtf16()}function
-gA(){return typeof
+K8(a,b){return lX(a,b,true)}function
+cF(a){if(a<0)a6("Bytes.create");return new
+cD(a?2:9,ah,a)}function
+tI(a,b){return+(lX(a,b,false)==0)}function
+K_(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=ah;a.t=2}else{a.c=tV(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)iO(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+Ls=0;function
+tK(){return Ls++}function
+Lk(a){return a.toUtf16()}function
+gI(){return typeof
 X.process!=="undefined"&&typeof
 X.process.versions!=="undefined"&&typeof
 X.process.versions.node!=="undefined"}function
-Lk(){function
-a(a){if(a.charAt(0)===cd)return[ah,a.substring(1)];return}function
+LF(){function
+a(a){if(a.charAt(0)===ch)return[ah,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||ah,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||ah,f=a[2]||ah;return[d,c.substring(d.length+f.length)]}return}return gA()&&X.process&&X.process.platform?X.process.platform==="win32"?b:a:a}var
-l2=Lk();function
-tJ(a){return a.slice(-1)!==cd?a+cd:a}if(gA()&&X.process&&X.process.cwd)var
-gx=X.process.cwd().replace(/\\/g,cd);else
+d=a[1]||ah,f=a[2]||ah;return[d,c.substring(d.length+f.length)]}return}return gI()&&X.process&&X.process.platform?X.process.platform==="win32"?b:a:a}var
+l$=LF();function
+tX(a){return a.slice(-1)!==ch?a+ch:a}if(gI()&&X.process&&X.process.cwd)var
+gF=X.process.cwd().replace(/\\/g,ch);else
 var
-gx="/static";gx=tJ(gx);function
-K3(a){a=K1(a);if(!l2(a))a=gx+a;var
-e=l2(a),d=e[1].split(cd),b=[];for(var
+gF="/static";gF=tX(gF);function
+Lm(a){a=Lk(a);if(!l$(a))a=gF+a;var
+e=l$(a),d=e[1].split(ch),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-Lf(e){for(var
-f=ah,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<cb){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<cb;d++);if(d-c>rV){b.substr(0,1);f+=b;b=ah;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<sf){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(cb|a&fa)}else
-if(a<0xd800||a>=sm)b+=String.fromCharCode(so|a>>12,cb|a>>6&fa,cb|a&fa);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<r9||h>sm)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(sw|a>>18,cb|a>>12&fa,cb|a>>6&fa,cb|a&fa)}if(b.length>go){b.substr(0,1);f+=b;b=ah}}return f+b}function
-KK(a){var
-b=9;if(!tM(a))b=8,a=Lf(a);return new
-cz(b,a,a.length)}function
-fj(a){return KK(a)}var
-Ln=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",r3,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",lw,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",lB,r8,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-ep(d,f,e,a){var
-b=Ln.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,fj(f||ah),fj(e||ah)];return c}var
-tC={};function
-em(a){return tC[a]}function
-en(b,a){throw[0,b].concat(a)}function
-KJ(a){return new
-cz(4,a,a.length)}function
-au(a){lX(aK.Sys_error,a)}function
-La(a){au(a+io)}function
-to(){a5(lH)}function
-KI(b,a){if(a>>>0>=b.l)to();return lN(b,a)}function
-iM(a){return a.l}function
-th(){}function
-a3(a){this.data=a}a3.prototype=new
-th();a3.prototype.truncate=function(a){var
-b=this.data;this.data=cB(a|0);gw(b,0,this.data,0,a)};a3.prototype.length=function(){return iM(this.data)};a3.prototype.write=function(b,d,g,a){var
+LA(e){for(var
+f=ah,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<cf){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<cf;d++);if(d-c>r9){b.substr(0,1);f+=b;b=ah;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<st){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(cf|a&fk)}else
+if(a<0xd800||a>=sA)b+=String.fromCharCode(sC|a>>12,cf|a>>6&fk,cf|a&fk);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<sl||h>sA)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(sK|a>>18,cf|a>>12&fk,cf|a>>6&fk,cf|a&fk)}if(b.length>gw){b.substr(0,1);f+=b;b=ah}}return f+b}function
+K5(a){var
+b=9;if(!t0(a))b=8,a=LA(a);return new
+cD(b,a,a.length)}function
+ft(a){return K5(a)}var
+LI=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",sf,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",lF,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",lK,sk,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+ew(d,f,e,a){var
+b=LI.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,ft(f||ah),ft(e||ah)];return c}var
+tQ={};function
+et(a){return tQ[a]}function
+eu(b,a){throw[0,b].concat(a)}function
+K4(a){return new
+cD(4,a,a.length)}function
+aw(a){l6(aL.Sys_error,a)}function
+Lv(a){aw(a+iu)}function
+tC(){a6(lQ)}function
+K3(b,a){if(a>>>0>=b.l)tC();return lW(b,a)}function
+iS(a){return a.l}function
+tv(){}function
+a4(a){this.data=a}a4.prototype=new
+tv();a4.prototype.truncate=function(a){var
+b=this.data;this.data=cF(a|0);gE(b,0,this.data,0,a)};a4.prototype.length=function(){return iS(this.data)};a4.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=cB(b+a),f=this.data;this.data=e;gw(f,0,this.data,0,c)}ff(d,g,this.data,b,a);return 0};a3.prototype.read=function(c,a,d,b){var
-e=this.length();gw(this.data,c,a,d,b);return 0};a3.prototype.read_one=function(a){return KI(this.data,a)};a3.prototype.close=function(){};a3.prototype.constructor=a3;function
-bl(b,a){this.content={};this.root=b;this.lookupFun=a}bl.prototype.nm=function(a){return this.root+a};bl.prototype.create_dir_if_needed=function(d){var
-c=d.split(cd),b=ah;for(var
-a=0;a<c.length-1;a++){b+=c[a]+cd;if(this.content[b])continue;this.content[b]=Symbol("directory")}};bl.prototype.slash=function(a){return/\/$/.test(a)?a:a+cd};bl.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+e=cF(b+a),f=this.data;this.data=e;gE(f,0,this.data,0,c)}fp(d,g,this.data,b,a);return 0};a4.prototype.read=function(c,a,d,b){var
+e=this.length();gE(this.data,c,a,d,b);return 0};a4.prototype.read_one=function(a){return K3(this.data,a)};a4.prototype.close=function(){};a4.prototype.constructor=a4;function
+bm(b,a){this.content={};this.root=b;this.lookupFun=a}bm.prototype.nm=function(a){return this.root+a};bm.prototype.create_dir_if_needed=function(d){var
+c=d.split(ch),b=ah;for(var
+a=0;a<c.length-1;a++){b+=c[a]+ch;if(this.content[b])continue;this.content[b]=Symbol("directory")}};bm.prototype.slash=function(a){return/\/$/.test(a)?a:a+ch};bm.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-a3(fg(c[1]))}}};bl.prototype.exists=function(a){if(a==ah)return 1;var
-b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};bl.prototype.mkdir=function(c,e,d){var
-b=d&&em(ls);if(this.exists(c))if(b)en(b,ep(r3,lr,this.nm(c)));else
-au(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||ah;if(!this.exists(a))if(b)en(b,ep(lw,lr,this.nm(a)));else
-au(a+io);if(!this.is_dir(a))if(b)en(b,ep(lB,lr,this.nm(a)));else
-au(a+lJ);this.create_dir_if_needed(this.slash(c))};bl.prototype.rmdir=function(a,f){var
-b=f&&em(ls),c=a==ah?ah:this.slash(a),e=new
-RegExp(lF+c+r_);if(!this.exists(a))if(b)en(b,ep(lw,lp,this.nm(a)));else
-au(a+io);if(!this.is_dir(a))if(b)en(b,ep(lB,lp,this.nm(a)));else
-au(a+lJ);for(var
+a4(fq(c[1]))}}};bm.prototype.exists=function(a){if(a==ah)return 1;var
+b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};bm.prototype.mkdir=function(c,e,d){var
+b=d&&et(lB);if(this.exists(c))if(b)eu(b,ew(sf,lA,this.nm(c)));else
+aw(c+": File exists");var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||ah;if(!this.exists(a))if(b)eu(b,ew(lF,lA,this.nm(a)));else
+aw(a+iu);if(!this.is_dir(a))if(b)eu(b,ew(lK,lA,this.nm(a)));else
+aw(a+lS);this.create_dir_if_needed(this.slash(c))};bm.prototype.rmdir=function(a,f){var
+b=f&&et(lB),c=a==ah?ah:this.slash(a),e=new
+RegExp(lO+c+sm);if(!this.exists(a))if(b)eu(b,ew(lF,ly,this.nm(a)));else
+aw(a+iu);if(!this.is_dir(a))if(b)eu(b,ew(lK,ly,this.nm(a)));else
+aw(a+lS);for(var
 d
 in
-this.content)if(d.match(e))if(b)en(b,ep(r8,lp,this.nm(a)));else
-au(this.nm(a)+": Directory not empty");delete
-this.content[c]};bl.prototype.readdir=function(a){var
-f=a==ah?ah:this.slash(a);if(!this.exists(a))au(a+io);if(!this.is_dir(a))au(a+lJ);var
+this.content)if(d.match(e))if(b)eu(b,ew(sk,ly,this.nm(a)));else
+aw(this.nm(a)+": Directory not empty");delete
+this.content[c]};bm.prototype.readdir=function(a){var
+f=a==ah?ah:this.slash(a);if(!this.exists(a))aw(a+iu);if(!this.is_dir(a))aw(a+lS);var
 g=new
-RegExp(lF+f+r_),d={},c=[];for(var
+RegExp(lO+f+sm),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};bl.prototype.is_dir=function(a){if(a==ah)return true;var
-b=this.slash(a);return this.content[b]?1:0};bl.prototype.unlink=function(a){var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};bm.prototype.is_dir=function(a){if(a==ah)return true;var
+b=this.slash(a);return this.content[b]?1:0};bm.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};bl.prototype.open=function(a,b){if(b.rdonly&&b.wronly)au(this.nm(a)+sY);if(b.text&&b.binary)au(this.nm(a)+rN);this.lookup(a);if(this.content[a]){if(this.is_dir(a))au(this.nm(a)+" : is a directory");if(b.create&&b.excl)au(this.nm(a)+sU);var
+this.content[a];return b};bm.prototype.open=function(a,b){if(b.rdonly&&b.wronly)aw(this.nm(a)+ta);if(b.text&&b.binary)aw(this.nm(a)+r1);this.lookup(a);if(this.content[a]){if(this.is_dir(a))aw(this.nm(a)+" : is a directory");if(b.create&&b.excl)aw(this.nm(a)+s8);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-a3(cB(0));return this.content[a]}else
-La(this.nm(a))};bl.prototype.register=function(c,a){var
-b;if(this.content[c])au(this.nm(c)+sU);if(lV(a))b=new
-a3(a);if(tA(a))b=new
-a3(fg(a));else
+a4(cF(0));return this.content[a]}else
+Lv(this.nm(a))};bm.prototype.register=function(c,a){var
+b;if(this.content[c])aw(this.nm(c)+s8);if(l4(a))b=new
+a4(a);if(tO(a))b=new
+a4(fq(a));else
 if(a
 instanceof
 Array)b=new
-a3(KJ(a));else
+a4(K4(a));else
 if(typeof
 a==="string")b=new
-a3(tq(a));else
+a4(tE(a));else
 if(a.toString){var
-d=fg(fj(a.toString()));b=new
-a3(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-au(this.nm(c)+" : registering file with invalid content type")};bl.prototype.constructor=bl;function
-aD(a){return iM(a)}function
-eo(b,a){return lN(b,a)}function
-KE(d){var
-c=aD(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=eo(d,a);return b}function
-KD(a){if(a.t!=4)iI(a);return a.c}function
-KM(a,c,b){b&=c1;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}iI(a)}a.c[c]=b;return 0}function
-KL(b,a,c){if(a>>>0>=b.l)to();return KM(b,a,c)}function
-cA(a){this.fs=require("fs");this.fd=a}cA.prototype=new
-th();cA.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){au(a.toString())}};cA.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){au(a.toString())}};cA.prototype.write=function(f,b,c,e){var
-a=KE(b);if(!(a
+d=fq(ft(a.toString()));b=new
+a4(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+aw(this.nm(c)+" : registering file with invalid content type")};bm.prototype.constructor=bm;function
+aE(a){return iS(a)}function
+ev(b,a){return lW(b,a)}function
+KZ(d){var
+c=aE(d),b=new
+Array(c),a=0;for(;a<c;a++)b[a]=ev(d,a);return b}function
+KY(a){if(a.t!=4)iO(a);return a.c}function
+K7(a,c,b){b&=c5;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}iO(a)}a.c[c]=b;return 0}function
+K6(b,a,c){if(a>>>0>=b.l)tC();return K7(b,a,c)}function
+cE(a){this.fs=require("fs");this.fd=a}cE.prototype=new
+tv();cE.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){aw(a.toString())}};cE.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){aw(a.toString())}};cE.prototype.write=function(f,b,c,e){var
+a=KZ(b);if(!(a
 instanceof
 X.Uint8Array))a=new(X.Uint8Array)(a);var
-d=X.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){au(a.toString())}return 0};cA.prototype.read=function(g,d,c,f){var
-a=KD(d);if(!(a
+d=X.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){aw(a.toString())}return 0};cE.prototype.read=function(g,d,c,f){var
+a=KY(d);if(!(a
 instanceof
 X.Uint8Array))a=new(X.Uint8Array)(a);var
-e=X.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){au(a.toString())}for(var
-b=0;b<f;b++)KL(d,c+b,e[c+b]);return 0};cA.prototype.read_one=function(c){var
-b=new(X.Uint8Array)(1),a=X.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){au(a.toString())}return a[0]};cA.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){au(a.toString())}};cA.prototype.constructor=cA;function
-a4(a){this.fs=require("fs");this.root=a}a4.prototype.nm=function(a){return this.root+a};a4.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};a4.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};a4.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};a4.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};a4.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){au(a.toString())}};a4.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};a4.prototype.open=function(f,c,g){var
+e=X.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){aw(a.toString())}for(var
+b=0;b<f;b++)K6(d,c+b,e[c+b]);return 0};cE.prototype.read_one=function(c){var
+b=new(X.Uint8Array)(1),a=X.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){aw(a.toString())}return a[0]};cE.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){aw(a.toString())}};cE.prototype.constructor=cE;function
+a5(a){this.fs=require("fs");this.root=a}a5.prototype.nm=function(a){return this.root+a};a5.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};a5.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};a5.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};a5.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};a5.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){aw(a.toString())}};a5.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};a5.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-cA(d)}catch(a){this.raise_nodejs_error(a,g)}};a4.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};a4.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};a4.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};a4.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};a4.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),rz);return fj(a)}catch(a){this.raise_nodejs_error(a,c)}};a4.prototype.raise_nodejs_error=function(a,d){var
-b=em(ls);if(d&&b){var
-c=ep(a.code,a.syscall,a.path,a.errno);en(b,c)}else
-au(a.toString())};a4.prototype.stats_from_js=function(a){var
+cE(d)}catch(a){this.raise_nodejs_error(a,g)}};a5.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};a5.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};a5.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};a5.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};a5.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),rN);return ft(a)}catch(a){this.raise_nodejs_error(a,c)}};a5.prototype.raise_nodejs_error=function(a,d){var
+b=et(lB);if(d&&b){var
+c=ew(a.code,a.syscall,a.path,a.errno);eu(b,c)}else
+aw(a.toString())};a5.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};a4.prototype.constructor=a4;function
-tx(b){var
-a=l2(b);if(!a)return;return a[0]+cd}var
-iN=tx(gx)||ce("unable to compute caml_root"),fk=[];if(gA())fk.push({path:iN,device:new
-a4(iN)});else
-fk.push({path:iN,device:new
-bl(iN)});fk.push({path:rI,device:new
-bl(rI)});function
-tS(b){var
-g=K3(b),b=g.join(cd),f=tJ(b),c;for(var
-e=0;e<fk.length;e++){var
-a=fk[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&gA()){var
-d=tx(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};a5.prototype.constructor=a5;function
+tL(b){var
+a=l$(b);if(!a)return;return a[0]+ch}var
+iT=tL(gF)||ci("unable to compute caml_root"),fu=[];if(gI())fu.push({path:iT,device:new
+a5(iT)});else
+fu.push({path:iT,device:new
+bm(iT)});fu.push({path:rW,device:new
+bm(rW)});function
+t6(b){var
+g=Lm(b),b=g.join(ch),f=tX(b),c;for(var
+e=0;e<fu.length;e++){var
+a=fu[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&gI()){var
+d=tL(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-a4(d)};fk.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;au("no device found for "+f)}function
-KO(c,b){var
-a=tS(c);if(!a.device.register)ce("cannot register file");a.device.register(a.rest,b);return 0}function
-tL(c,b){var
-c=a(c),b=a(b);return KO(c,b)}function
-KR(){var
+a5(d)};fu.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;aw("no device found for "+f)}function
+K9(c,b){var
+a=t6(c);if(!a.device.register)ci("cannot register file");a.device.register(a.rest,b);return 0}function
+tZ(c,b){var
+c=a(c),b=a(b);return K9(c,b)}function
+La(){var
 b=X.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)tL(b[a].name,b[a].content);X.jsoo_create_file=tL;X.caml_fs_tmp=[];return 0}function
-K_(c){var
-a=0,e=aD(c),b=10,d=1;if(e>0)switch(eo(c,a)){case
+a=0;a<b.length;a++)tZ(b[a].name,b[a].content);X.jsoo_create_file=tZ;X.caml_fs_tmp=[];return 0}function
+Lt(c){var
+a=0,e=aE(c),b=10,d=1;if(e>0)switch(ev(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&eo(c,a)==48)switch(eo(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&ev(c,a)==48)switch(ev(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -583,33 +583,33 @@ a=0,e=aD(c),b=10,d=1;if(e>0)switch(eo(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-tD(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=s_)return a-87;return-1}function
-iL(f){var
-h=K_(f),c=h[0],i=h[1],d=h[2],g=aD(f),j=-1>>>0,e=c<g?eo(f,c):0,b=tD(e);if(b<0||b>=d)ce(iu);var
-a=b;for(c++;c<g;c++){e=eo(f,c);if(e==95)continue;b=tD(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)ce(iu)}if(c!=g)ce(iu);a=i*a;if(d==10&&(a|0)!=a)ce(iu);return a|0}function
-K2(a,b){return+(lO(a,b,false)<=0)}function
-K4(a,d){if(a<0)iH();var
+tR(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=tm)return a-87;return-1}function
+iR(f){var
+h=Lt(f),c=h[0],i=h[1],d=h[2],g=aE(f),j=-1>>>0,e=c<g?ev(f,c):0,b=tR(e);if(b<0||b>=d)ci(iA);var
+a=b;for(c++;c<g;c++){e=ev(f,c);if(e==95)continue;b=tR(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)ci(iA)}if(c!=g)ci(iA);a=i*a;if(d==10&&(a|0)!=a)ci(iA);return a|0}function
+Ll(a,b){return+(lX(a,b,false)<=0)}function
+Ln(a,d){if(a<0)iN();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
-c3=new
+c8=new
 Array();function
-K5(c){var
-a=c3[c];if(!a.opened)au("Cannot flush a closed channel");if(!a.buffer||a.buffer==ah)return 0;if(a.fd&&aK.fds[a.fd]&&aK.fds[a.fd].output){var
-b=aK.fds[a.fd].output;switch(b.length){case
+Lo(c){var
+a=c8[c];if(!a.opened)aw("Cannot flush a closed channel");if(!a.buffer||a.buffer==ah)return 0;if(a.fd&&aL.fds[a.fd]&&aL.fds[a.fd].output){var
+b=aL.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=ah;return 0}function
-tG(e,f){var
-b=c3[e],d=a(f),c=aD(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-Lg(a){var
-a=lZ(a),b=X;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+tU(e,f){var
+b=c8[e],d=a(f),c=aE(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+LB(a){var
+a=l8(a),b=X;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-Lh(a){var
-a=lZ(a),b=X;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+LC(a){var
+a=l8(a),b=X;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-iP(c,e,d,a){if(aK.fds===undefined)aK.fds=new
+iV(c,e,d,a){if(aL.fds===undefined)aL.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;aK.fds[c]=b;if(!aK.fd_last_idx||c>aK.fd_last_idx)aK.fd_last_idx=c;return c}function
-Lo(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;aL.fds[c]=b;if(!aL.fd_last_idx||c>aL.fd_last_idx)aL.fd_last_idx=c;return c}function
+LJ(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,176 +619,177 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)au(fi(c)+sY);if(a.text&&a.binary)au(fi(c)+rN);var
-d=tS(c),e=d.device.open(d.rest,a),f=aK.fd_last_idx?aK.fd_last_idx:0;return iP(f+1,tG,e,a)}iP(0,tG,new
-a3(cB(0)));iP(1,Lh,new
-a3(cB(0)));iP(2,Lg,new
-a3(cB(0)));function
-K6(a){var
-c=aK.fds[a];if(c.flags.wronly)au(s8+a+" is writeonly");var
-d=null;if(a==0&&gA()){var
-e=require("fs");d=function(){return fj(e.readFileSync(0,rz))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};c3[b.fd]=b;return b.fd}function
-tB(c){var
-b=aK.fds[c];if(b.flags.rdonly)au(s8+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:ah};c3[a.fd]=a;return a.fd}function
-K7(){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)aw(fs(c)+ta);if(a.text&&a.binary)aw(fs(c)+r1);var
+d=t6(c),e=d.device.open(d.rest,a),f=aL.fd_last_idx?aL.fd_last_idx:0;return iV(f+1,tU,e,a)}iV(0,tU,new
+a4(cF(0)));iV(1,LC,new
+a4(cF(0)));iV(2,LB,new
+a4(cF(0)));function
+Lp(a){var
+c=aL.fds[a];if(c.flags.wronly)aw(tk+a+" is writeonly");var
+d=null;if(a==0&&gI()){var
+e=require("fs");d=function(){return ft(e.readFileSync(0,rN))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};c8[b.fd]=b;return b.fd}function
+tP(c){var
+b=aL.fds[c];if(b.flags.rdonly)aw(tk+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:ah};c8[a.fd]=a;return a.fd}function
+Lq(){var
 b=0;for(var
-a=0;a<c3.length;a++)if(c3[a]&&c3[a].opened&&c3[a].out)b=[0,c3[a].fd,b];return b}function
-bW(b,c,a){if(a&&X.toplevelReloc)b=X.toplevelReloc(a);aK[b+1]=c;if(a)aK[a]=c}function
-Lc(a,b){tC[fi(a)]=b;return 0}function
-KH(a,b){if(a===b)return 1;a.t&6&&fh(a);b.t&6&&fh(b);return a.c==b.c?1:0}function
-aG(a,b){return KH(a,b)}function
-Le(){a5(lH)}function
-bd(b,a){if(a>>>0>=aD(b))Le();return eo(b,a)}function
-p(a,b){return 1-aG(a,b)}function
-iO(a){return a}function
-tF(a){return a}function
-tK(a){if(a
+a=0;a<c8.length;a++)if(c8[a]&&c8[a].opened&&c8[a].out)b=[0,c8[a].fd,b];return b}function
+bY(b,c,a){if(a&&X.toplevelReloc)b=X.toplevelReloc(a);aL[b+1]=c;if(a)aL[a]=c}function
+Lx(a,b){tQ[fs(a)]=b;return 0}function
+K2(a,b){if(a===b)return 1;a.t&6&&fr(a);b.t&6&&fr(b);return a.c==b.c?1:0}function
+aI(a,b){return K2(a,b)}function
+Lz(){a6(lQ)}function
+bd(b,a){if(a>>>0>=aE(b))Lz();return ev(b,a)}function
+p(a,b){return 1-aI(a,b)}function
+iU(a){return a}function
+tT(a){return a}function
+tY(a){if(a
 instanceof
 Array)return a;if(X.RangeError&&a
 instanceof
-X.RangeError&&a.message&&a.message.match(/maximum call stack/i))return tF(aK.Stack_overflow);if(X.InternalError&&a
+X.RangeError&&a.message&&a.message.match(/maximum call stack/i))return tT(aL.Stack_overflow);if(X.InternalError&&a
 instanceof
-X.InternalError&&a.message&&a.message.match(/too much recursion/i))return tF(aK.Stack_overflow);if(a
+X.InternalError&&a.message&&a.message.match(/too much recursion/i))return tT(aL.Stack_overflow);if(a
 instanceof
-X.Error&&em(sd))return[0,em(sd),a];return[0,aK.Failure,fj(String(a))]}function
-cC(a){return a<0?-a:a}function
+X.Error&&et(sr))return[0,et(sr),a];return[0,aL.Failure,ft(String(a))]}function
+cG(a){return a<0?-a:a}function
 G(a,b){return a+b}function
-l0(a,b){return a<b?-1:a>b?1:0}function
-tO(c,b){var
-a=c%b;return a<0?a+cC(b):a}function
-l1(a,b){return(a-tO(a,b))/b}function
+l9(a,b){return a<b?-1:a>b?1:0}function
+t2(c,b){var
+a=c%b;return a<0?a+cG(b):a}function
+l_(a,b){return(a-t2(a,b))/b}function
 L(a,b){return a==b?1:0}function
-Ll(c){X.orthocert_verify=function(b){return fi(dD(c,[a(b)]))}}function
+LG(c){X.orthocert_verify=function(b){return fs(c6(c,[a(b)]))}}function
 F(a,b){return a<=b?1:0}function
 K(a,b){return a<b?1:0}function
 D(a,b){return a*b}function
 R(a){return-a}function
-aN(a){return X.BigInt(a)}var
-tR=[];function
-tN(a){return tR[a]||(tR[a]=X.BigInt(a))}function
-tP(a,b){return a<<tN(b)}function
-tQ(a,b){return a>>tN(b)}function
+aO(a){return X.BigInt(a)}var
+t5=[];function
+t1(a){return t5[a]||(t5[a]=X.BigInt(a))}function
+t3(a,b){return a<<t1(b)}function
+t4(a,b){return a>>t1(b)}function
 aX(a){return a<0?-1:a>0?1:0}function
-Lm(a){if(a<0)throw new(X.Error)("a root of a negative number");if(a<2)return a;var
+LH(a){if(a<0)throw new(X.Error)("a root of a negative number");if(a<2)return a;var
 d=X.BigInt(1),b=d<<X.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-aQ(a,b){return a-b}function
-iQ(b){var
+aR(a,b){return a-b}function
+iW(b){var
 a=X.Number(b);if(a!==(a|0))throw new(X.Error)("a number of more than 32 bits");return a}function
-K0(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-KQ(b){var
-a=ah;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&K0(b[1]))var
+Lj(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+K$(b){var
+a=ah;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Lj(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=se;for(var
+f=2,e=b;a+=ss;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-cz)a+=aW+c.toString()+aW;else
+cD)a+=aW+c.toString()+aW;else
 if(typeof
 c=="string")a+=aW+c.toString()+aW;else
-a+="_"}a+=lE}else
+a+="_"}a+=lN}else
 if(b[0]==bc)a+=b[1];return a}function
-tv(a){if(a
+tJ(a){if(a
 instanceof
 Array&&(a[0]==0||a[0]==bc)){var
-c=em("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=KQ(a),b=em(ry);if(b)b(0);X.console.error("Fatal error: exception "+d+"\n")}}else
+c=et("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
+d=K$(a),b=et(rM);if(b)b(0);X.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-Ld(){var
-a=X;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){tv(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)tv(a.error)})}Ld();function
-h(a,b){return a.length==1?a(b):dD(a,[b])}function
-as(a,b,c){return a.length==2?a(b,c):dD(a,[b,c])}function
-gh(a,b,c,d){return a.length==3?a(b,c,d):dD(a,[b,c,d])}function
-ij(a,b,c,d,e){return a.length==4?a(b,c,d,e):dD(a,[b,c,d,e])}KR();var
-l4=[bc,a(r6),-2],l3=[bc,a(tg),-4],JK=[0,[0,[0,[0,0]]]],JL=[0,0],JM=[0,0],JN=[0,[0,0]],JO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JN]]]]]]]]]]],h6=[0,[1,0],0],qM=[0,[2,0],0],k4=[0,[1,0],0],qL=[0,[2,0],0],h4=[0,[1,0],0],k3=[0,[2,0],0],JP=[0,[0,[0,[0,0]]]],JQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JP]]]]]]]]]]],JR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JQ]]]]]]]]]]],JS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JR]]]]]]]]]]],JT=[0,[0,0]],JU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JT]]]]]]]]]]],JV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JU]]]]]]]]]]],JW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JV]]]]]]]]]]],JX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JW]]]]]]]]]]],JY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],JZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JY]]]]]]]]]]],J0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JZ]]]]]]]]]]],J1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J0]]]]]]]]]]],J2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J1]]]]]]]]]]],J3=[0,[0,0]],J4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J3]]]]]]]]]]],J5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J4]]]]]]]]]]],J6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J5]]]]]]]]]]],J7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J6]]]]]]]]]]],J8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J7]]]]]]]]]]],J9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J8]]]]]]]]]]],J_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J9]]]]]]]]]]],J$=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Ka=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J$]]]]]]]]]]],Kb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ka]]]]]]]]]]],Kc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kb]]]]]]]]]]],Kd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kc]]]]]]]]]]],Ke=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kd]]]]]]]]]]],Kf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ke]]]]]]]]]]],Kg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kf]]]]]]]]]]],Kh=[0,0],Ki=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kh]]]]]]]]]]],Kj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ki]]]]]]]]]]],Kk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kj]]]]]]]]]]],Kl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kk]]]]]]]]]]],Km=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kl]]]]]]]]]]],Kn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Km]]]]]]]]]]],Ko=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kn]]]]]]]]]]],Kp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ko]]]]]]]]]]],Kq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kp]]]]]]]]]]],Kr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kq]]]]]]]]]]],Ks=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Kt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ks]]]]]]]]]]],Ku=[0,0],Kv=[0,[0,0]],Kw=[0,0],Kx=[0,[0,[0,[0,[0,0]]]]],dL=[0,[0,[0,0]]],dN=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],hT=[0,[0,[0,[0,0]]]],Ky=[0,[0,[0,[0,[0,0]]]]],Kz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ky]]]]]]]]]]],KA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kz]]]]]]]]]]],KB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KA]]]]]]]]]]],KC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KB]]]]]]]]]]];bW(11,[bc,a(rw),-12],rw);bW(10,[bc,a(sk),-11],sk);bW(9,[bc,a(s7),-10],s7);bW(8,[bc,a(rJ),-9],rJ);bW(7,[bc,a(sy),-8],sy);bW(6,[bc,a(rH),-7],rH);bW(5,[bc,a(r7),-6],r7);bW(4,[bc,a(r$),-5],r$);bW(3,l3,tg);bW(2,[bc,a(lx),-3],lx);bW(1,l4,r6);bW(0,[bc,a(sR),-1],sR);var
-tT=a("String.sub / Bytes.sub"),tV=a(ah),tU=a("String.concat"),tW=a("Array.init"),tX=a("power"),ur=[0,0],us=[0,0],uy=[0,0,0],uz=[0,0,0],uA=[0,0],uX=[0,0],uY=[0,0],u1=[0,0],vk=[0,0],vn=[0,0],vr=[0,0],vs=[0,0],vt=[0,0],vu=[0,0],vI=[0,0],vJ=[0,0],wa=[0,0],wA=[0,[0,[0,0]]],xc=[0,0],xF=[0,0],x3=[0,0],yf=a(","),yx=[0,a(lE),0],yy=a(se),yz=a("."),yA=[0,[0,[0,0]]],yB=a(fc),yC=a(lF),yD=[0,[0,[0,[0,[0,0]]]]],yE=[0,a(lE),0],yF=a(te),BI=a(rt),BK=a(rq),BJ=a(sn),BL=a(e9),BM=a(e7),BN=a(iG),BO=a(s1),BP=a(r0),BQ=a(iA),BR=a(ss),BS=a(rZ),C6=[0,[0,0,0]],Dl=[0,0],C7=a(gi),C8=[0,0],C9=a(lD),C_=[0,1],C$=a("mirror"),Da=[0,3],Db=a("negative"),Dc=[0,2],Dd=a(gn),De=[0,5],Df=a(lL),Dg=[0,4],Dh=a(dB),Di=a(iq),Dj=a(e_),Dk=a(bU),Dm=[0,0],Dn=[0,0],Do=[0,0],Dr=[0,[0,[0,0]]],Ds=[0,[0,[0,0]]],DT=[0,[0,[0,0]]],D7=[0,0],Eq=a(ah),Ei=[0,0],Ek=[0,0],Ej=[0,0],El=[0,[0,[0,[0,0]]]],Em=[0,[0,[0,0]]],En=[0,[0,[0,[0,0]]]],Eo=[0,[0,[0,0]]],Eg=[0,[0,[0,0]]],Ef=a(e_),Ee=[0,0],Ec=[0,1,0],Ed=[0,[0,[0,0]]],Eb=[0,0],Ea=[0,0],D$=[0,0],D8=[0,[0,0]],D9=[0,[0,[0,0]]],D5=[0,[0,0]],D6=[0,[0,[0,0]]],D4=[0,0],D0=[0,[0,[0,0]]],DZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JK]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],DU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],DV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],DW=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],DX=[0,[0,[0,[0,0]]],[0,0,0]],DR=[0,0],DS=[0,[0,0]],DQ=[0,0,0],DP=[0,[0,[0,0]]],DJ=[0,[0,0]],DK=[0,[0,[0,0]]],DL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JL]]]]]]]]]]],DM=[0,[0,0]],DN=[0,[0,[0,0]]],DI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JM]]]]]]]]]]],DG=[0,[0,0]],DH=[0,[0,[0,0]]],DE=[0,[0,[0,0]]],DF=[0,[0,0]],DD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JO]]]]]]]]]]],DC=[0,0],DB=[0,0],Dy=[0,[0,0]],Dz=[0,0],Dw=[0,0],Dx=[0,1],Du=[0,[0,0]],Dv=[0,0],Dt=[0,0],Dp=[0,0],Dq=[0,1],C3=[0,0],C4=[0,1],C5=[0,2],CZ=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],CX=[0,[0,0],0],CY=[0,[1,0],0],C0=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],CV=[0,[0,0]],CW=[0,0],CU=[0,0],CT=[0,0],CS=[0,0],CR=[0,0],CQ=[0,0,0],CO=[0,[0,0]],CP=[0,0],CN=[0,0,0],CL=[0,[0,[0,0]]],CM=[0,[0,[0,0]]],CK=[0,0],CI=[0,1,0],CB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JS]]]]]]]]]]],CC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JX]]]]]]]]]]],Cx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J2]]]]]]]]]]],Cy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J_]]]]]]]]]]],Cz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kg]]]]]]]]]]],CA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kr]]]]]]]]]]],CD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kt]]]]]]]]]]],CE=a("sqrt"),Cm=[0,a("\n"),0],Cn=a(rr),Co=a(ip),Cp=a(sj),Cq=a(r4),Cw=a(gq),Cr=a(gm),Cs=a("verdict"),Ct=a(sS),Cu=a(rW),Cv=a(si),Cj=a(sc),Ck=a(sW),Cl=a(is),Cf=a(su),Cg=a(it),Ch=a(gm),Ci=a(gq),Ca=a(iC),Cb=a(by),Cc=a(rs),Cd=a(iy),B9=a(sQ),B_=a(gn),B$=a(iy),B5=a(sx),B6=a(iC),B7=a(it),B8=a(s5),BU=a(sX),BV=a(s0),BW=a(ix),BX=a(iv),BY=a(s$),BZ=a(sM),B0=a(sP),B1=a(sB),B2=a(ix),B3=a(sE),BG=a(im),BH=a(gp),BB=a(bV),BC=a(bT),BD=a(rY),Bb=a(iv),Bc=a(sA),AR=a(by),AS=a(cc),AT=a(iE),AU=a(fb),AV=a(cx),A0=a(lq),AW=a(lG),AX=a(lI),AY=a(e8),AZ=a(by),A1=a(cc),A2=a(iE),A3=a(fb),A4=a(lG),A5=a(lI),A6=a(e8),A7=a(by),A8=a(cc),A9=a(bV),A_=a(bT),A$=a(ej),Ba=a(fb),Bd=a(sK),Be=a(sZ),Bf=a(iF),Bg=a(rM),Bh=a(rR),Bi=a(e8),Bj=a(by),Bk=a(cc),Bl=a(ik),Bm=a(r2),Bn=a(fb),Bo=a(gv),Bp=a(rB),Bq=a(e8),Br=a(by),Bs=a(ik),Bt=a(by),Bu=a(sD),Bx=a(rp),Bv=a(rP),Bw=a(s4),By=a(gq),Bz=a(gm),BA=a(by),BE=a(iF),BF=a(is),AM=a(cc),AN=a(fb),AO=a(lq),AP=a(e8),AL=a(tb),Az=a(gv),AA=a(sT),AB=a(ek),AC=a(e$),AD=a(e$),AE=a(lt),AF=a(ek),AG=a(sl),AH=a(rX),AI=a(br),AK=a(rv),AJ=a(lt),Ap=a(sb),Aq=a(tf),Ar=a(rT),As=a(rQ),At=a(s3),Au=a(sO),Av=a(r5),Aw=a(il),Ax=a(il),Al=a(br),Am=a(bS),An=a(fd),Ao=a(bx),Ah=a(cx),Ai=a(lA),Aj=a(sv),Ae=a(bV),Af=a(bT),Ag=a(ej),z9=a(bV),z_=a(bT),z$=a(ej),Aa=a(lC),Ab=a(ek),Ac=a(ly),Ad=a(sJ),zR=a(rO),zX=a(ip),zW=a(lK),zS=a(lu),zT=a(gk),zY=a(gl),z0=a(gl),z1=a(sH),z2=a(lu),zZ=a(gk),z3=a(rL),z4=a(sG),z5=a(gk),z6=a(ta),z7=a(lK),z8=a(gk),zU=a(e$),zV=a(sq),zO=a(iw),zP=a(iw),zQ=a(iw),zK=a(sL),zL=a(bT),zM=a(bV),zN=a(s2),zt=a(rF),zu=a(ru),zv=a(sz),zw=a(e9),zx=a(tc),zy=a(sC),zz=a(rG),zA=a(sr),zB=a(rE),zC=a(r1),zD=a(rD),zE=a(sN),zF=a(e7),zG=a(rA),zH=a(sV),zI=a(rS),zJ=a(td),y6=a(iz),y8=a(fc),y7=a(gj),y9=a(e6),y_=a(br),y$=a(bS),za=a(bU),zb=a(gr),zc=a(bx),zd=a(gt),ze=a(br),zf=a(bS),zg=a(fd),zh=a(bx),zi=a(bU),zj=a(cx),zk=a(bx),zl=a(e6),zm=a(gu),zn=a(br),zo=a(bS),zp=a(sp),zq=a(gl),zr=a(gu),zs=a(bx),yO=a(iz),yW=a(fc),yP=a(gj),yQ=a(e6),yR=a(br),yS=a(bS),yT=a(bU),yU=a(gr),yV=a(bx),yX=a(gt),yY=a(br),yZ=a(bS),y0=a(fd),y1=a(bx),y2=a(bU),y3=a(cx),y4=a(bx),yL=a(bV),yM=a(bT),yJ=[0,a(aW),0],yK=a(aW),yH=a(ah),yG=[0,a(aW),0],yI=a(aW),yt=a(iz),yu=a(fc),yv=a("*"),yw=a(cd),yo=[0,[0,[0,[0,[0,0]]]]],yp=[0,[0,[0,0]]],yq=[0,[0,0]],yr=[0,0],ys=[0,[0,[0,[0,0]]]],ym=a('":'),yn=a(aW),yk=[0,a(aW),0],yl=a(aW),yi=[0,a("}"),0],yj=a("{"),yg=[0,a("]"),0],yh=a("["),ye=[0,[0,[0,0]]],yd=[0,[0,[0,0]]],yb=[0,0],x_=[0,[0,[0,0]]],x$=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],ya=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],x8=[0,[0,0]],x9=[0,[0,[0,0]]],x5=[0,0],x6=[0,[0,0]],x7=[0,0],x4=[0,0],x1=[0,0],x2=[0,[0,0]],xY=[0,0],xZ=[0,[0,0]],x0=[0,0],xT=[0,[0,0]],xU=[0,0],xV=[0,[0,[0,0]]],xW=[0,[0,[0,0]]],xS=[0,[0,[0,0]]],xR=[0,[0,[0,0]]],xQ=[0,0],xN=[0,[0,[0,0]]],xP=[0,[0,[0,0]]],xO=[0,0],xL=[0,[0,0]],xM=[0,0],xJ=[0,[0,0]],xK=[0,0],xI=[0,[0,[0,0]]],xG=[0,[0,0]],xH=[0,0],xD=[0,0],xE=[0,[0,0]],xx=[0,[0,0]],xy=[0,[0,[0,[0,[0,0]]]]],xz=[0,[0,[0,[0,0]]]],xA=[0,[0,[0,0]]],xB=[0,[0,0]],xC=[0,0],xu=[0,0],xv=[0,[0,0]],xw=[0,0],xt=[0,0],xp=[0,0],xq=[0,[0,[0,[0,[0,[0,0]]]]]],xr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ku]]]]]]]]]]],xn=[0,0,0],xo=[0,0,0],xk=[0,0,0],xl=[0,0],xg=[0,0,0],xh=[0,0,0],xi=[0,0,0],xd=[0,[0,0]],xe=[0,[0,[0,0]]],xf=[0,0],w_=[0,0],w$=[0,[0,0]],xa=[0,0],xb=[0,[0,0]],w7=[0,0],w8=[0,[0,0]],w9=[0,0],w5=[0,0,0],w6=[0,0,[0,1,0]],w1=[0,0,0],w2=[0,0,0],w3=[0,0,0],w4=[0,0,0],wY=[0,[0,[0,[0,[0,[0,0]]]]]],wZ=[0,[0,[0,0]]],w0=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],wR=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],wS=[0,[0,[0,0]]],wT=[0,[0,[0,[0,[0,[0,0]]]]]],wU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kv]]]]]]]]]]],wV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kw]]]]]]]]]]],wW=[0,[0,[0,0]]],wX=[0,[0,[0,[0,[0,[0,0]]]]]],wN=[0,0,0],wO=[0,0,0],wJ=[0,0,0],wK=[0,0,0],wL=[0,0,0],wM=[0,0,0],wI=[0,0],wH=[0,0],wG=[0,0],wE=[0,0],wF=[0,0],wD=[0,0],wB=[0,0],wC=[0,0],wt=[0,0],wu=[0,0],wv=[0,0],ww=[0,[0,[0,0]]],ws=[0,0],wm=[0,0],wn=[0,0],wo=[0,[0,0]],wk=[0,[0,0]],wl=[0,[0,[0,0]]],wi=[0,[0,[0,0]]],wj=[0,[0,0]],wg=[0,[0,0]],wh=[0,[0,[0,0]]],wf=[0,0],wd=[0,0],we=[0,0],wb=[0,0,0],v_=[0,[0,0]],v$=[0,0],v2=[0,[0,0]],v3=[0,0],v4=[0,[0,0]],v5=[0,0],v6=[0,[0,0]],v7=[0,0],v8=[0,[0,0]],v9=[0,0],v0=[0,[0,0]],v1=[0,0],vY=[0,[0,0]],vZ=[0,0],vU=[0,[0,0]],vV=[0,0],vW=[0,0],vX=[0,[0,0]],vL=[0,[0,0]],vM=[0,0],vN=[0,[0,0]],vO=[0,0],vP=[0,0],vQ=[0,[0,0]],vR=[0,[0,0]],vS=[0,[0,0]],vT=[0,0],vH=[0,0],vG=[0,0],vD=[0,0],vE=[0,[0,0]],vC=[0,[0,[0,0]]],vB=[0,[0,[0,[0,[0,[0,0]]]]]],vz=[0,[0,0]],vA=[0,0],vy=[0,[0,0]],vx=[0,0],vv=[0,0],vw=[0,[0,[0,0]]],vp=[0,[0,0]],vq=[0,[0,[0,0]]],vo=[0,[0,[0,0]]],vl=[0,[0,[0,0]]],vj=[0,[0,[0,0]]],vh=[0,[0,[0,[0,[0,[0,0]]]]]],vi=[0,[0,[0,[0,[0,[0,0]]]]]],vc=[0,[0,0]],vd=[0,0],ve=[0,[0,0]],vf=[0,[0,[0,0]]],vg=[0,[0,[0,0]]],u7=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],u8=[0,[0,[0,[0,[0,[0,0]]]]]],u9=[0,[0,[0,[0,[0,[0,0]]]]]],u_=[0,[0,[0,0]]],u$=[0,[0,[0,[0,[0,[0,0]]]]]],va=[0,[0,[0,0]]],vb=[0,[0,[0,0]]],u5=[0,[0,0]],u6=[0,0],u4=[0,0,0],u3=[0,0,0],u2=[0,0,0],u0=[0,0,0],uZ=[0,[0,[0,0]]],uT=[0,0],uU=[0,0],uV=[0,0],uW=[0,0],uR=[0,0],uS=[0,0],uP=[0,0,0],uM=[0,[0,[0,0]]],uN=[0,[0,[0,0]]],uO=[0,[0,[0,0]]],uL=[0,[0,[0,[0,0]]]],uH=[0,[0,[0,0]]],uI=[0,[0,[0,0]]],uJ=[0,[0,[0,0]]],uK=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],uF=[0,[0,0]],uG=[0,0],uD=[0,[0,0]],uE=[0,0],uB=[0,[0,0]],uC=[0,0],uo=[0,0],up=[0,[0,0]],um=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],un=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kx]]]]]]]]]]],uk=[0,0,0],ui=[0,[0,[0,[0,[0,0]]]]],t_=[0,0],t$=[0,[0,0]],ua=[0,[0,[0,0]]],ub=[0,[0,[0,[0,0]]]],uc=[0,[0,[0,[0,[0,0]]]]],ud=[0,[0,[0,[0,[0,[0,0]]]]]],ue=[0,[0,[0,[0,[0,[0,[0,0]]]]]]],uf=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],ug=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],uh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],t8=a(s9),t7=a(ah),t6=[0,[0,0]],t4=[0,0],t1=[0,0],t3=[1,0],t2=[0,0],t0=[0,0],tY=[1,0],tZ=[1,0],vF=[10,0,0,0,0],D_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KC]]]]]]]]]]],HG=a(bV),HH=a(bT),HI=a(rY),Hy=a(gt),Hz=[0,a("a base axis of such a platform"),0],HA=a(br),HB=a(bS),Hl=a(sO),Hm=a(sb),Hn=a(s3),Ho=a(il),Hp=a(r5),Hq=a(il),Hr=a(tf),Hs=a(rT),Ht=a(rQ),G$=a(sA),Ha=a(iv),GN=[0,a("such a machine with bodies"),0],GA=a(is),GB=a(by),GC=a(sD),GD=a(s4),GG=a(rP),GH=a(rp),GI=a(by),GJ=a(by),GL=a(ik),GK=[0,a("a claim that no cube of such a machine fits"),0],GM=a(tb),GO=a(e8),GP=a(fb),GQ=a(cx),GR=a(lA),GS=a(sv),GT=a(iE),GU=a(rR),GV=a(rB),GW=a(lq),GZ=a(ej),G0=a(sJ),G3=a(cc),G4=a(cc),G5=a(r2),G6=a(cc),G7=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],G8=a(ik),G9=a(gv),G_=a(ej),Hb=a(sZ),Hc=a(sK),Hd=[0,a(" operations, with its definitions written out,"),0],He=a("a mechanism of more than "),Hf=a(cc),Hg=a(bV),Hh=a(bT),Hi=a(iF),Hj=a(rM),GX=[0,a(aW),0],GY=a('the mechanism "'),Hk=a(lG),Hu=a(iE),Hv=a(cx),Hw=a(lA),Hx=a(lI),HC=a(cc),HF=a(cx),HD=[0,a("a platform that turns on struts and other drives"),0],HE=a(cc),G1=[0,a(aW),0],G2=a('the workspace "'),HJ=a(by),HK=a(by),HM=a(gq),HN=a(gm),HO=a(iF),HL=[0,a("an atlas of such a machine"),0],GE=[0,a(aW),0],GF=a('a claim of the kind "'),H2=a(iG),H3=a(dB),H4=a(iq),H5=a(e_),H6=a(iA),H7=a(lD),H8=a(gi),H9=a(iG),H_=a(iq),H$=a(iA),Ia=a(lD),Ib=[0,a('this evidence "fan"'),0],HT=a(dB),Im=a(gp),In=[0,1,1],HU=a(ss),Id=a(e7),Ie=a(rZ),If=a(e9),Ig=a(r0),Ih=a(sn),Ii=a(bU),Ij=a(gp),Ik=a(im),Il=a(bU),HV=a(iG),HW=a(dB),HX=a(iq),HY=a(e_),HZ=a(iA),Ic=[0,a('evidence "fan" about "divided" and other rows'),0],H0=[0,a(aW),0],H1=a('the evidence "'),Io=a(e7),Ip=a(e9),Iq=a(dB),Ir=a(e_),Is=a(s1),Iu=a(e7),Iv=a(e9),Iw=a(dB),Ix=a(e_),Iy=a(gn),Iz=a(gi),IA=a(gn),IB=a(gi),It=[0,a("this evidence at control points"),0],JD=a('"orthocert-paving/'),Ju=a(dB),Jv=a(dB),Jh=a(si),Ji=a(rW),Jj=a(sS),JB=[0,3,3],Jk=a(r4),Js=[0,a("this set of orientations with such drives"),0],Jt=[0,a(rx),0],Jw=[0,a('this evidence "tolerances" of a platform that turns'),0],Jx=[0,a("a step of a platform that turns that is not at control points"),0],Jy=[0,a("this quantity in a claim that is refuted"),0],Jz=[0,a("a step in a proof that no cube fits"),0],JA=[0,a('the failure "same" of such a mechanism'),0],Jl=[0,a(rx),0],Jq=[0,a("a stiffness for each joint in such a claim"),0],Jr=[0,a(sF),0],Jp=[0,a(sF),0],Jm=a(sj),Jn=a(rr),Jo=a(ip),Jd=a(lL),Je=a(gi),Jf=a(bU),I7=a(is),I8=a(sc),I9=a(sW),I_=[0,a(aW),0],I$=a('a proof of the kind "'),I3=a(gm),I4=a(gq),I5=a(it),I6=a(su),IZ=a(by),I0=a(iC),I1=a(rs),I2=a(iy),IW=a(sQ),IX=a(gn),IY=a(iy),IS=a(sx),IT=a(iC),IU=a(it),IV=a(s5),IE=a(s0),IF=a(ix),IG=a(sX),IH=a(iv),II=a(sE),IJ=a(s$),IM=a(sM),IN=a(im),IO=a(gp),IP=a(sP),IQ=a(sB),IR=a(ix),IK=[0,a(aW),0],IL=a('the failure "'),IC=a(lL),ID=a(s9),HR=a(gp),HS=a(im),HP=a(rq),HQ=a(rt),Gx=a(gv),Gn=a(lt),Go=a(rv),Gp=a(e$),Gq=a(br),Gv=a(sT),Gw=a(gv),Gy=a(ek),Gz=a(e$),Gr=a(ek),Gs=a(sl),Gt=a(rX),Gu=a(br),Gg=a(ej),Gk=a(bV),Gl=a(bT),Gh=a(ly),Gi=a(lC),Gj=a(ek),Ga=a(ej),Ge=a(bV),Gf=a(bT),Gb=a(ly),Gc=a(lC),Gd=a(ek),F$=[0,1],F_=[0,1],F8=[0,1],F6=[0,1],F5=[0,1],F3=[0,1],F4=[0,a("this quantity of such a mechanism"),0],FM=a(lu),FN=a(sG),FO=a(rL),FP=a(lK),FQ=a(ta),FS=a(sH),FR=a(gl),FL=a(ip),FD=a(iw),Fr=a(sq),Fs=a(sz),FV=a(e7),FW=a(sV),FX=a(r1),FY=a(e9),FZ=a(sr),F0=a(rD),F1=a(rE),F2=a(ru),Ft=a(rA),Fu=a(td),Fv=a(sN),Fw=a(sC),Fx=a(rS),Fy=a(tc),Fz=a(rG),FA=a(rF),FB=[0,a(aW),0],FC=a('the quantity "'),FE=a(rO),FF=a(sL),FG=a(bV),FH=a(bT),FI=a(s2),FJ=[0,a(aW),0],FK=a('a bound "'),FT=a(gk),FU=a(e$),Fp=a(bx),Fq=a(fd),Fn=a(bx),Fo=a(cx),Fk=a(bx),Fl=a(gr),EY=a(bx),EZ=a(gt),E0=a(gu),E1=a(cx),E2=a(gr),E3=a(fd),E6=a(br),E7=a(bS),E8=a(gj),E9=a(e6),E_=a(br),E$=a(bS),Fa=a(bU),Fb=a(bU),Fc=a(gj),Fd=a(e6),Fe=a(gu),Ff=a(br),Fg=a(bS),Fh=a(sp),Fi=a(gl),E4=[0,a('" of such a machine'),0],E5=a(rK),EW=a(bx),EX=a(gu),EG=a(bx),EH=a(cx),EI=a(gr),EJ=a(fd),EM=a(gt),EN=a(br),EO=a(bS),EP=a(gj),EQ=a(e6),ER=a(br),ES=a(bS),ET=a(bU),EU=a(bU),EK=[0,a(aW),0],EL=a(rK),ED=a(iz),EE=a(fc),EB=a(" is not covered by the verified checker"),EC=a(ah),Ez=a(bV),EA=a(bT),Ev=a(ah),Ew=a(te),Ex=a(ah),Ey=a(ah),Eu=[1,0],Et=a(fc),Er=a("Reader.Malformed"),Es=a("Reader.Not_covered"),JF=[0,a("a paving is checked by orthocert-verified")],JE=a(st),JG=a("CERTIFIED"),JH=a("REFUTED"),JI=a(st),JJ=a("NOT COVERED: ");function
-gB(a){throw[0,l3,a]}function
-l5(b,a){return K2(b,a)?b:a}function
-bm(d,c){var
-a=aD(d),e=aD(c),b=cB(a+e|0);ff(d,0,b,0,a);ff(c,0,b,a,e);return iO(b)}function
-l6(a,b){if(a){var
-c=a[1];return[0,c,l6(a[2],b)]}return b}K6(0);tB(1);tB(2);function
-l7(b){function
+Ly(){var
+a=X;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){tJ(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)tJ(a.error)})}Ly();function
+h(a,b){return a.length==1?a(b):c6(a,[b])}function
+as(a,b,c){return a.length==2?a(b,c):c6(a,[b,c])}function
+fd(a,b,c,d){return a.length==3?a(b,c,d):c6(a,[b,c,d])}function
+gp(a,b,c,d,e){return a.length==4?a(b,c,d,e):c6(a,[b,c,d,e])}function
+KX(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):c6(a,[b,c,d,e,f])}La();var
+mb=[bc,a(si),-2],ma=[bc,a(tu),-4],J4=[0,[0,[0,[0,0]]]],J5=[0,0],J6=[0,0],J7=[0,[0,0]],J8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J7]]]]]]]]]]],ib=[0,[1,0],0],q0=[0,[2,0],0],lb=[0,[1,0],0],qZ=[0,[2,0],0],h$=[0,[1,0],0],la=[0,[2,0],0],J9=[0,[0,[0,[0,0]]]],J_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J9]]]]]]]]]]],J$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J_]]]]]]]]]]],Ka=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J$]]]]]]]]]]],Kb=[0,[0,0]],Kc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kb]]]]]]]]]]],Kd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kc]]]]]]]]]]],Ke=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kd]]]]]]]]]]],Kf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ke]]]]]]]]]]],Kg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Kh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kg]]]]]]]]]]],Ki=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kh]]]]]]]]]]],Kj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ki]]]]]]]]]]],Kk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kj]]]]]]]]]]],Kl=[0,[0,0]],Km=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kl]]]]]]]]]]],Kn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Km]]]]]]]]]]],Ko=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kn]]]]]]]]]]],Kp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ko]]]]]]]]]]],Kq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kp]]]]]]]]]]],Kr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kq]]]]]]]]]]],Ks=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kr]]]]]]]]]]],Kt=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Ku=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kt]]]]]]]]]]],Kv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ku]]]]]]]]]]],Kw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kv]]]]]]]]]]],Kx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kw]]]]]]]]]]],Ky=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kx]]]]]]]]]]],Kz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ky]]]]]]]]]]],KA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kz]]]]]]]]]]],KB=[0,0],KC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KB]]]]]]]]]]],KD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KC]]]]]]]]]]],KE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KD]]]]]]]]]]],KF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KE]]]]]]]]]]],KG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KF]]]]]]]]]]],KH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KG]]]]]]]]]]],KI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KH]]]]]]]]]]],KJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KI]]]]]]]]]]],KK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KJ]]]]]]]]]]],KL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KK]]]]]]]]]]],KM=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],KN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KM]]]]]]]]]]],KO=[0,0],KP=[0,[0,0]],KQ=[0,0],KR=[0,[0,[0,[0,[0,0]]]]],dR=[0,[0,[0,0]]],dT=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],nH=[0,0],h0=[0,[0,[0,[0,0]]]],KS=[0,[0,[0,[0,[0,0]]]]],KT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KS]]]]]]]]]]],KU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KT]]]]]]]]]]],KV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KU]]]]]]]]]]],KW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KV]]]]]]]]]]];bY(11,[bc,a(rK),-12],rK);bY(10,[bc,a(sy),-11],sy);bY(9,[bc,a(tj),-10],tj);bY(8,[bc,a(rX),-9],rX);bY(7,[bc,a(sM),-8],sM);bY(6,[bc,a(rV),-7],rV);bY(5,[bc,a(sj),-6],sj);bY(4,[bc,a(sn),-5],sn);bY(3,ma,tu);bY(2,[bc,a(lG),-3],lG);bY(1,mb,si);bY(0,[bc,a(s5),-1],s5);var
+t7=a("String.sub / Bytes.sub"),t9=a(ah),t8=a("String.concat"),t_=a("Array.init"),t$=a("power"),uF=[0,0],uG=[0,0],uM=[0,0,0],uN=[0,0,0],uO=[0,0],u7=[0,0],va=[0,0],vb=[0,0],vj=[0,0],vB=[0,0],vE=[0,0],vI=[0,0],vJ=[0,0],vK=[0,0],vL=[0,0],vZ=[0,0],v0=[0,0],wr=[0,0],wR=[0,[0,[0,0]]],xt=[0,0],xW=[0,0],yi=[0,0],yw=a(","),yO=[0,a(lN),0],yP=a(ss),yQ=a("."),yR=[0,[0,[0,0]]],yS=a(fm),yT=a(lO),yU=[0,[0,[0,[0,[0,0]]]]],yV=[0,a(lN),0],yW=a(ts),BZ=a(rH),B1=a(rE),B0=a(sB),B2=a(fh),B3=a(ff),B4=a(iM),B5=a(td),B6=a(sc),B7=a(iG),B8=a(sG),B9=a(sb),Do=[0,[0,[0,0,0],0]],DF=[0,0],Dp=a(gq),Dq=[0,0],Dr=a(lM),Ds=[0,1],Dt=a("mirror"),Du=[0,3],Dv=a("negative"),Dw=[0,2],Dx=a(gv),Dy=[0,5],Dz=a(lU),DA=[0,4],DB=a(dH),DC=a(iw),DD=a(fi),DE=a(bW),DG=[0,0],DH=[0,0],DI=[0,0],DL=[0,[0,[0,0]]],DM=[0,[0,[0,0]]],Eb=[0,[0,[0,0]]],Ep=[0,0],EK=a(ah),EC=[0,0],EE=[0,0],ED=[0,0],EF=[0,[0,[0,[0,0]]]],EG=[0,[0,[0,0]]],EH=[0,[0,[0,[0,0]]]],EI=[0,[0,[0,0]]],EA=[0,[0,[0,0]]],Ez=a(fi),Ey=[0,0],Ew=[0,1,0],Ex=[0,[0,[0,0]]],Ev=[0,0],Eu=[0,0],Et=[0,0],Eq=[0,[0,0]],Er=[0,[0,[0,0]]],En=[0,[0,0]],Eo=[0,[0,[0,0]]],Em=[0,0],Ei=[0,[0,[0,0]]],Eh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J4]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],Ec=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],Ed=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],Ee=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],Ef=[0,[0,[0,[0,0]]],[0,0,0]],D$=[0,0],Ea=[0,[0,0]],D_=[0,0,0],D9=[0,[0,[0,0]]],D3=[0,[0,0]],D4=[0,[0,[0,0]]],D5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J5]]]]]]]]]]],D6=[0,[0,0]],D7=[0,[0,[0,0]]],D2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J6]]]]]]]]]]],D0=[0,[0,0]],D1=[0,[0,[0,0]]],DY=[0,[0,[0,0]]],DZ=[0,[0,0]],DX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J8]]]]]]]]]]],DW=[0,0],DV=[0,0],DS=[0,[0,0]],DT=[0,0],DQ=[0,0],DR=[0,1],DO=[0,[0,0]],DP=[0,0],DN=[0,0],DJ=[0,0],DK=[0,1],Di=[0,[0,0,0]],Dj=[0,[0,1,0]],Dk=[0,[0,2,0]],Dl=[0,[0,0,1]],Dm=[0,[0,1,1]],Dn=[0,[0,2,1]],De=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Dc=[0,[0,0],0],Dd=[0,[1,0],0],Df=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Da=[0,[0,0]],Db=[0,0],C$=[0,0],C_=[0,0],C9=[0,0],C8=[0,0],C7=[0,0,0],C5=[0,[0,0]],C6=[0,0],C4=[0,0,0],C2=[0,[0,[0,0]]],C3=[0,[0,[0,0]]],C1=[0,0],CZ=[0,1,0],CS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ka]]]]]]]]]]],CT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kf]]]]]]]]]]],CO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kk]]]]]]]]]]],CP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ks]]]]]]]]]]],CQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KA]]]]]]]]]]],CR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KL]]]]]]]]]]],CU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KN]]]]]]]]]]],CV=a("sqrt"),CD=[0,a("\n"),0],CE=a(rF),CF=a(iv),CG=a(sx),CH=a(sg),CN=a(gy),CI=a(gu),CJ=a("verdict"),CK=a(s6),CL=a(r_),CM=a(sw),CA=a(sq),CB=a(s_),CC=a(iy),Cw=a(sI),Cx=a(iz),Cy=a(gu),Cz=a(gy),Cr=a(iI),Cs=a(bB),Ct=a(rG),Cu=a(iE),Co=a(s4),Cp=a(gv),Cq=a(iE),Ck=a(sL),Cl=a(iI),Cm=a(iz),Cn=a(th),B$=a(s$),Ca=a(tc),Cb=a(iD),Cc=a(iB),Cd=a(tn),Ce=a(s0),Cf=a(s3),Cg=a(sP),Ch=a(iD),Ci=a(sS),BX=a(it),BY=a(gx),BS=a(bX),BT=a(bV),BU=a(sa),Bs=a(iB),Bt=a(sO),A8=a(bB),A9=a(cg),A_=a(iK),A$=a(fl),Ba=a(cB),Bf=a(lz),Bb=a(lP),Bc=a(lR),Bd=a(fg),Be=a(bB),Bg=a(cg),Bh=a(iK),Bi=a(fl),Bj=a(lP),Bk=a(lR),Bl=a(fg),Bm=a(bB),Bn=a(cg),Bo=a(bX),Bp=a(bV),Bq=a(eq),Br=a(fl),Bu=a(sY),Bv=a(tb),Bw=a(iL),Bx=a(r0),By=a(r5),Bz=a(fg),BA=a(bB),BB=a(cg),BC=a(ir),BD=a(se),BE=a(fl),BF=a(gD),BG=a(rP),BH=a(fg),BI=a(bB),BJ=a(ir),BK=a(bB),BL=a(sR),BO=a(rD),BM=a(r3),BN=a(tg),BP=a(gy),BQ=a(gu),BR=a(bB),BV=a(iL),BW=a(iy),A3=a(cg),A4=a(fl),A5=a(lz),A6=a(fg),A2=a(tp),AQ=a(gD),AR=a(s7),AS=a(er),AT=a(fj),AU=a(fj),AV=a(lC),AW=a(er),AX=a(sz),AY=a(r$),AZ=a(bu),A1=a(rJ),A0=a(lC),AG=a(sp),AH=a(tt),AI=a(r7),AJ=a(r4),AK=a(tf),AL=a(s2),AM=a(sh),AN=a(is),AO=a(is),AC=a(bu),AD=a(bU),AE=a(fn),AF=a(bA),Ay=a(cB),Az=a(lJ),AA=a(sJ),Av=a(bX),Aw=a(bV),Ax=a(eq),Ao=a(bX),Ap=a(bV),Aq=a(eq),Ar=a(lL),As=a(er),At=a(lH),Au=a(sX),z8=a(r2),Ac=a(iv),Ab=a(lT),z9=a(lD),z_=a(gs),Ad=a(gt),Af=a(gt),Ag=a(sV),Ah=a(lD),Ae=a(gs),Ai=a(rZ),Aj=a(sU),Ak=a(gs),Al=a(to),Am=a(lT),An=a(gs),z$=a(fj),Aa=a(sE),z5=a(iC),z6=a(iC),z7=a(iC),z1=a(sZ),z2=a(bV),z3=a(bX),z4=a(te),zK=a(rT),zL=a(rI),zM=a(sN),zN=a(fh),zO=a(tq),zP=a(sQ),zQ=a(rU),zR=a(sF),zS=a(rS),zT=a(sd),zU=a(rR),zV=a(s1),zW=a(ff),zX=a(rO),zY=a(s9),zZ=a(r6),z0=a(tr),zl=a(iF),zn=a(fm),zm=a(gr),zo=a(fe),zp=a(bu),zq=a(bU),zr=a(bW),zs=a(gz),zt=a(bA),zu=a(gB),zv=a(bu),zw=a(bU),zx=a(fn),zy=a(bA),zz=a(bW),zA=a(cB),zB=a(bA),zC=a(fe),zD=a(gC),zE=a(bu),zF=a(bU),zG=a(sD),zH=a(gt),zI=a(gC),zJ=a(bA),y5=a(iF),zb=a(fm),y6=a(gr),y7=a(fe),y8=a(bu),y9=a(bU),y_=a(bW),y$=a(gz),za=a(bA),zc=a(gB),zd=a(bu),ze=a(bU),zf=a(fn),zg=a(bA),zh=a(bW),zi=a(cB),zj=a(bA),y2=a(bX),y3=a(bV),y0=[0,a(aW),0],y1=a(aW),yY=a(ah),yX=[0,a(aW),0],yZ=a(aW),yK=a(iF),yL=a(fm),yM=a("*"),yN=a(ch),yF=[0,[0,[0,[0,[0,0]]]]],yG=[0,[0,[0,0]]],yH=[0,[0,0]],yI=[0,0],yJ=[0,[0,[0,[0,0]]]],yD=a('":'),yE=a(aW),yB=[0,a(aW),0],yC=a(aW),yz=[0,a("}"),0],yA=a("{"),yx=[0,a("]"),0],yy=a("["),yv=[0,[0,[0,0]]],yu=[0,[0,[0,0]]],ys=[0,0],yp=[0,[0,[0,0]]],yq=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],yr=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],yn=[0,[0,0]],yo=[0,[0,[0,0]]],yk=[0,0],yl=[0,[0,0]],ym=[0,0],yj=[0,0],yg=[0,0],yh=[0,[0,0]],yd=[0,0],ye=[0,[0,0]],yf=[0,0],x_=[0,[0,0]],x$=[0,0],ya=[0,[0,[0,0]]],yb=[0,[0,[0,0]]],x9=[0,[0,[0,0]]],x8=[0,[0,[0,0]]],x7=[0,0],x4=[0,[0,[0,0]]],x6=[0,[0,[0,0]]],x5=[0,0],x2=[0,[0,0]],x3=[0,0],x0=[0,[0,0]],x1=[0,0],xZ=[0,[0,[0,0]]],xX=[0,[0,0]],xY=[0,0],xU=[0,0],xV=[0,[0,0]],xO=[0,[0,0]],xP=[0,[0,[0,[0,[0,0]]]]],xQ=[0,[0,[0,[0,0]]]],xR=[0,[0,[0,0]]],xS=[0,[0,0]],xT=[0,0],xL=[0,0],xM=[0,[0,0]],xN=[0,0],xK=[0,0],xG=[0,0],xH=[0,[0,[0,[0,[0,[0,0]]]]]],xI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KO]]]]]]]]]]],xE=[0,0,0],xF=[0,0,0],xB=[0,0,0],xC=[0,0],xx=[0,0,0],xy=[0,0,0],xz=[0,0,0],xu=[0,[0,0]],xv=[0,[0,[0,0]]],xw=[0,0],xp=[0,0],xq=[0,[0,0]],xr=[0,0],xs=[0,[0,0]],xm=[0,0],xn=[0,[0,0]],xo=[0,0],xk=[0,0,0],xl=[0,0,[0,1,0]],xg=[0,0,0],xh=[0,0,0],xi=[0,0,0],xj=[0,0,0],xd=[0,[0,[0,[0,[0,[0,0]]]]]],xe=[0,[0,[0,0]]],xf=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],w8=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],w9=[0,[0,[0,0]]],w_=[0,[0,[0,[0,[0,[0,0]]]]]],w$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KP]]]]]]]]]]],xa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KQ]]]]]]]]]]],xb=[0,[0,[0,0]]],xc=[0,[0,[0,[0,[0,[0,0]]]]]],w4=[0,0,0],w5=[0,0,0],w0=[0,0,0],w1=[0,0,0],w2=[0,0,0],w3=[0,0,0],wZ=[0,0],wY=[0,0],wX=[0,0],wV=[0,0],wW=[0,0],wU=[0,0],wS=[0,0],wT=[0,0],wK=[0,0],wL=[0,0],wM=[0,0],wN=[0,[0,[0,0]]],wJ=[0,0],wD=[0,0],wE=[0,0],wF=[0,[0,0]],wB=[0,[0,0]],wC=[0,[0,[0,0]]],wz=[0,[0,[0,0]]],wA=[0,[0,0]],wx=[0,[0,0]],wy=[0,[0,[0,0]]],ww=[0,0],wu=[0,0],wv=[0,0],ws=[0,0,0],wp=[0,[0,0]],wq=[0,0],wh=[0,[0,0]],wi=[0,0],wj=[0,[0,0]],wk=[0,0],wl=[0,[0,0]],wm=[0,0],wn=[0,[0,0]],wo=[0,0],wf=[0,[0,0]],wg=[0,0],wd=[0,[0,0]],we=[0,0],v$=[0,[0,0]],wa=[0,0],wb=[0,0],wc=[0,[0,0]],v2=[0,[0,0]],v3=[0,0],v4=[0,[0,0]],v5=[0,0],v6=[0,0],v7=[0,[0,0]],v8=[0,[0,0]],v9=[0,[0,0]],v_=[0,0],vY=[0,0],vX=[0,0],vU=[0,0],vV=[0,[0,0]],vT=[0,[0,[0,0]]],vS=[0,[0,[0,[0,[0,[0,0]]]]]],vQ=[0,[0,0]],vR=[0,0],vP=[0,[0,0]],vO=[0,0],vM=[0,0],vN=[0,[0,[0,0]]],vG=[0,[0,0]],vH=[0,[0,[0,0]]],vF=[0,[0,[0,0]]],vC=[0,[0,[0,0]]],vA=[0,[0,[0,0]]],vy=[0,[0,[0,[0,[0,[0,0]]]]]],vz=[0,[0,[0,[0,[0,[0,0]]]]]],vt=[0,[0,0]],vu=[0,0],vv=[0,[0,0]],vw=[0,[0,[0,0]]],vx=[0,[0,[0,0]]],vm=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],vn=[0,[0,[0,[0,[0,[0,0]]]]]],vo=[0,[0,[0,[0,[0,[0,0]]]]]],vp=[0,[0,[0,0]]],vq=[0,[0,[0,[0,[0,[0,0]]]]]],vr=[0,[0,[0,0]]],vs=[0,[0,[0,0]]],vk=[0,[0,0]],vl=[0,0],vg=[0,0,0],vh=[0,[0,0,0],0],vi=[0,0,0],ve=[0,0,0],vf=[0,[0,0,0],0],vd=[0,0,0],vc=[0,[0,[0,0]]],u8=[0,0],u9=[0,0],u_=[0,0],u$=[0,0],u5=[0,0],u6=[0,0],u3=[0,0,0],u0=[0,[0,[0,0]]],u1=[0,[0,[0,0]]],u2=[0,[0,[0,0]]],uZ=[0,[0,[0,[0,0]]]],uV=[0,[0,[0,0]]],uW=[0,[0,[0,0]]],uX=[0,[0,[0,0]]],uY=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],uT=[0,[0,0]],uU=[0,0],uR=[0,[0,0]],uS=[0,0],uP=[0,[0,0]],uQ=[0,0],uC=[0,0],uD=[0,[0,0]],uA=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],uB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KR]]]]]]]]]]],uy=[0,0,0],uw=[0,[0,[0,[0,[0,0]]]]],um=[0,0],un=[0,[0,0]],uo=[0,[0,[0,0]]],up=[0,[0,[0,[0,0]]]],uq=[0,[0,[0,[0,[0,0]]]]],ur=[0,[0,[0,[0,[0,[0,0]]]]]],us=[0,[0,[0,[0,[0,[0,[0,0]]]]]]],ut=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],uu=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],uv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],uk=a(tl),uj=a(ah),ui=[0,[0,0]],ug=[0,0],ud=[0,0],uf=[1,0],ue=[0,0],uc=[0,0],ua=[1,0],ub=[1,0],vW=[10,0,0,0,0],Es=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KW]]]]]]]]]]],H0=a(bX),H1=a(bV),H2=a(sa),HS=a(gB),HT=[0,a("a base axis of such a platform"),0],HU=a(bu),HV=a(bU),HF=a(s2),HG=a(sp),HH=a(tf),HI=a(is),HJ=a(sh),HK=a(is),HL=a(tt),HM=a(r7),HN=a(r4),Ht=a(sO),Hu=a(iB),G7=[0,a("such a machine with bodies"),0],GU=a(iy),GV=a(bB),GW=a(sR),GX=a(tg),G0=a(r3),G1=a(rD),G2=a(bB),G3=a(bB),G5=a(ir),G4=[0,a("a claim that no cube of such a machine fits"),0],G6=a(tp),G8=a(fg),G9=a(fl),G_=a(cB),G$=a(lJ),Ha=a(sJ),Hb=a(iK),Hc=a(r5),Hd=a(rP),He=a(lz),Hh=a(eq),Hi=a(sX),Hl=a(cg),Hm=a(cg),Hn=a(se),Ho=a(cg),Hp=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],Hq=a(ir),Hr=a(gD),Hs=a(eq),Hv=a(tb),Hw=a(sY),Hx=[0,a(" operations, with its definitions written out,"),0],Hy=a("a mechanism of more than "),Hz=a(cg),HA=a(bX),HB=a(bV),HC=a(iL),HD=a(r0),Hf=[0,a(aW),0],Hg=a('the mechanism "'),HE=a(lP),HO=a(iK),HP=a(cB),HQ=a(lJ),HR=a(lR),HW=a(cg),HZ=a(cB),HX=[0,a("a platform that turns on struts and other drives"),0],HY=a(cg),Hj=[0,a(aW),0],Hk=a('the workspace "'),H3=a(bB),H4=a(bB),H6=a(gy),H7=a(gu),H8=a(iL),H5=[0,a("an atlas of such a machine"),0],GY=[0,a(aW),0],GZ=a('a claim of the kind "'),Ik=a(iM),Il=a(dH),Im=a(iw),In=a(fi),Io=a(iG),Ip=a(lM),Iq=a(gq),Ir=a(iM),Is=a(iw),It=a(iG),Iu=a(lM),Iv=[0,a('this evidence "fan"'),0],Ib=a(dH),IG=a(gx),IH=[0,1,1],Ic=a(sG),Ix=a(ff),Iy=a(sb),Iz=a(fh),IA=a(sc),IB=a(sB),IC=a(bW),ID=a(gx),IE=a(it),IF=a(bW),Id=a(iM),Ie=a(dH),If=a(iw),Ig=a(fi),Ih=a(iG),Iw=[0,a('evidence "fan" about "divided" and other rows'),0],Ii=[0,a(aW),0],Ij=a('the evidence "'),II=a(ff),IJ=a(fh),IK=a(dH),IL=a(fi),IM=a(td),IO=a(ff),IP=a(fh),IQ=a(dH),IR=a(fi),IS=a(gv),IT=a(gq),IU=a(gv),IV=a(gq),IN=[0,a("this evidence at control points"),0],JX=a('"orthocert-paving/'),JO=a(dH),JP=a(dH),JB=a(sw),JC=a(r_),JD=a(s6),JV=[0,3,3],JE=a(sg),JM=[0,a("this set of orientations with such drives"),0],JN=[0,a(rL),0],JQ=[0,a('this evidence "tolerances" of a platform that turns'),0],JR=[0,a("a step of a platform that turns that is not at control points"),0],JS=[0,a("this quantity in a claim that is refuted"),0],JT=[0,a("a step in a proof that no cube fits"),0],JU=[0,a('the failure "same" of such a mechanism'),0],JF=[0,a(rL),0],JK=[0,a("a stiffness for each joint in such a claim"),0],JL=[0,a(sT),0],JJ=[0,a(sT),0],JG=a(sx),JH=a(rF),JI=a(iv),Jx=a(lU),Jy=a(gq),Jz=a(bW),Jp=a(iy),Jq=a(sq),Jr=a(s_),Js=[0,a(aW),0],Jt=a('a proof of the kind "'),Jl=a(gu),Jm=a(gy),Jn=a(iz),Jo=a(sI),Jh=a(bB),Ji=a(iI),Jj=a(rG),Jk=a(iE),Je=a(s4),Jf=a(gv),Jg=a(iE),Ja=a(sL),Jb=a(iI),Jc=a(iz),Jd=a(th),IY=a(tc),IZ=a(iD),I0=a(s$),I1=a(iB),I2=a(sS),I3=a(tn),I6=a(s0),I7=a(it),I8=a(gx),I9=a(s3),I_=a(sP),I$=a(iD),I4=[0,a(aW),0],I5=a('the failure "'),IW=a(lU),IX=a(tl),H$=a(gx),Ia=a(it),H9=a(rE),H_=a(rH),GR=a(gD),GH=a(lC),GI=a(rJ),GJ=a(fj),GK=a(bu),GP=a(s7),GQ=a(gD),GS=a(er),GT=a(fj),GL=a(er),GM=a(sz),GN=a(r$),GO=a(bu),GA=a(eq),GE=a(bX),GF=a(bV),GB=a(lH),GC=a(lL),GD=a(er),Gu=a(eq),Gy=a(bX),Gz=a(bV),Gv=a(lH),Gw=a(lL),Gx=a(er),Gt=[0,1],Gs=[0,1],Gq=[0,1],Go=[0,1],Gn=[0,1],Gl=[0,1],Gm=[0,a("this quantity of such a mechanism"),0],F6=a(lD),F7=a(sU),F8=a(rZ),F9=a(lT),F_=a(to),Ga=a(sV),F$=a(gt),F5=a(iv),FX=a(iC),FL=a(sE),FM=a(sN),Gd=a(ff),Ge=a(s9),Gf=a(sd),Gg=a(fh),Gh=a(sF),Gi=a(rR),Gj=a(rS),Gk=a(rI),FN=a(rO),FO=a(tr),FP=a(s1),FQ=a(sQ),FR=a(r6),FS=a(tq),FT=a(rU),FU=a(rT),FV=[0,a(aW),0],FW=a('the quantity "'),FY=a(r2),FZ=a(sZ),F0=a(bX),F1=a(bV),F2=a(te),F3=[0,a(aW),0],F4=a('a bound "'),Gb=a(gs),Gc=a(fj),FJ=a(bA),FK=a(fn),FH=a(bA),FI=a(cB),FE=a(bA),FF=a(gz),Fg=a(bA),Fh=a(gB),Fi=a(gC),Fj=a(cB),Fk=a(gz),Fl=a(fn),Fo=a(bu),Fp=a(bU),Fq=a(gr),Fr=a(fe),Fs=a(bu),Ft=a(bU),Fu=a(bW),Fv=a(bW),Fw=a(gr),Fx=a(fe),Fy=a(gC),Fz=a(bu),FA=a(bU),FB=a(sD),FC=a(gt),Fm=[0,a('" of such a machine'),0],Fn=a(rY),Fe=a(bA),Ff=a(gC),E0=a(bA),E1=a(cB),E2=a(gz),E3=a(fn),E6=a(gB),E7=a(bu),E8=a(bU),E9=a(gr),E_=a(fe),E$=a(bu),Fa=a(bU),Fb=a(bW),Fc=a(bW),E4=[0,a(aW),0],E5=a(rY),EX=a(iF),EY=a(fm),EV=a(" is not covered by the verified checker"),EW=a(ah),ET=a(bX),EU=a(bV),EP=a(ah),EQ=a(ts),ER=a(ah),ES=a(ah),EO=[1,0],EN=a(fm),EL=a("Reader.Malformed"),EM=a("Reader.Not_covered"),JZ=[0,a("a paving is checked by orthocert-verified")],JY=a(sH),J0=a("CERTIFIED"),J1=a("REFUTED"),J2=a(sH),J3=a("NOT COVERED: ");function
+gJ(a){throw[0,ma,a]}function
+mc(b,a){return Ll(b,a)?b:a}function
+bn(d,c){var
+a=aE(d),e=aE(c),b=cF(a+e|0);fp(d,0,b,0,a);fp(c,0,b,a,e);return iU(b)}function
+md(a,b){if(a){var
+c=a[1];return[0,c,md(a[2],b)]}return b}Lp(0);tP(1);tP(2);function
+me(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{K5(d)}catch(a){a=tK(a);if(a[1]!==l4)throw a;var
+c=a[2],d=a[1];try{Lo(d)}catch(a){a=tY(a);if(a[1]!==mb)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(K7(0))}Lc(a(ry),l7);function
-cD(c){var
+a=c;continue}return 0}}return a(Lq(0))}Lx(a(rM),me);function
+cH(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-l8(d,c){var
+mf(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-iR(a){return l8(a,0)}function
+iX(a){return mf(a,0)}function
 Y(b,a){if(a){var
 c=a[2],d=h(b,a[1]);return[0,d,Y(b,c)]}return 0}function
-l9(e,d,c){var
+mg(e,d,c){var
 b=d,a=c;for(;;){if(a){var
 f=a[2],b=as(e,b,a[1]),a=f;continue}return b}}function
-eq(d,c){var
+ex(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=h(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
-aO(d,c){var
+aP(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=h(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
-l_(d,c){var
+mh(d,c){var
 a=c;for(;;){if(a){var
-b=a[1],e=a[2],f=b[2];if(0===KN(b[1],d))return[0,f];var
+b=a[1],e=a[2],f=b[2];if(0===K8(b[1],d))return[0,f];var
 a=e;continue}return 0}}function
-bX(b,c){var
-a=cB(b);KP(a,0,b,c);return iO(a)}function
-er(g,b,a){var
-d=fg(g),f=0;if(0<=b&&0<=a&&!((iM(d)-a|0)<b)){var
-c=cB(a);gw(d,b,c,0,a);var
+bZ(b,c){var
+a=cF(b);K_(a,0,b,c);return iU(a)}function
+ey(g,b,a){var
+d=fq(g),f=0;if(0<=b&&0<=a&&!((iS(d)-a|0)<b)){var
+c=cF(a);gE(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=gB(tT);return iO(e)}function
-l$(k,g){if(g){var
-h=aD(k),c=0,b=g,p=0;for(;;){if(b){var
+e=gJ(t7);return iU(e)}function
+mi(k,g){if(g){var
+h=aE(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(aD(i)+h|0)+c|0,m=b[2],n=c<=j?j:gB(tU),c=n,b=m;continue}var
-l=aD(i)+c|0}else
+j=(aE(i)+h|0)+c|0,m=b[2],n=c<=j?j:gJ(t8),c=n,b=m;continue}var
+l=aE(i)+c|0}else
 var
 l=c;var
-f=cB(l),e=p,d=g;for(;;){if(d){var
+f=cF(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];ff(a,0,f,e,aD(a));ff(k,0,f,e+aD(a)|0,h);var
-e=(e+aD(a)|0)+h|0,d=o;continue}ff(a,0,f,e,aD(a))}return iO(f)}}}return tV}function
-iS(b,c){if(0===b)return[0];if(0<=b){var
-d=K4(b,h(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+o=d[2];fp(a,0,f,e,aE(a));fp(k,0,f,e+aE(a)|0,h);var
+e=(e+aE(a)|0)+h|0,d=o;continue}fp(a,0,f,e,aE(a))}return iU(f)}}}return t9}function
+iY(b,c){if(0===b)return[0];if(0<=b){var
+d=Ln(b,h(c,0)),e=b-1|0,f=1;if(!(e<1)){var
 a=f;for(;;){d[1+a]=h(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return gB(tW)}function
-iT(c){var
+a=g;continue}break}}return d}return gJ(t_)}function
+iZ(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
-d=aN(0),b=aN(1);function
+d=aO(0),b=aO(1);function
 q(a){return G(a,b)}function
-ma(b,a){return G(aN(b),a)}function
-c(b,a){return D(aN(b),a)}function
-aY(b,a){return[0,l1(b,a),tO(b,a)]}function
-iU(b,a){return F(b,a)?b:a}function
-bs(b,a){return F(b,a)?a:b}function
-fl(a){return fl}function
+mj(b,a){return G(aO(b),a)}function
+c(b,a){return D(aO(b),a)}function
+aY(b,a){return[0,l_(b,a),t2(b,a)]}function
+i0(b,a){return F(b,a)?b:a}function
+bv(b,a){return F(b,a)?a:b}function
+fv(a){return fv}function
 I(a){return a?0:1}function
-z(b,a){var
+x(b,a){var
 c=a?[0,h(b,a[1])]:a;return c}function
-aA(a){return a[1]}function
-aH(a){return a[2]}function
+at(a){return a[1]}function
+aJ(a){return a[2]}function
 f(a){var
 b=a?[0,f(a[2])]:a;return b}function
 g(a,b){if(a){var
 c=g(a[2],b);return[0,a[1],c]}return b}function
-mb(a){return typeof
-a==="number"?0:[0,mb(a[1])]}function
-mc(d,c){var
+mk(a){return typeof
+a==="number"?0:[0,mk(a[1])]}function
+ml(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -811,9 +812,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-gC(a){return mc(a,0)}function
-md(a){if(typeof
-a==="number")return tY;else
+gK(a){return ml(a,0)}function
+mm(a){if(typeof
+a==="number")return ua;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -823,105 +824,105 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,md(a[1])]}}function
-bZ(a){if(typeof
-a==="number")return tZ;else
+8:return[9,a[1]];default:return[0,mm(a[1])]}}function
+b1(a){if(typeof
+a==="number")return ub;else
 switch(a[0]){case
-0:return[1,bY(a[1])];case
-1:return[3,bY(a[1])];case
-2:return[5,bY(a[1])];case
-3:return[7,bY(a[1])];case
-4:return[9,bY(a[1])];case
-5:return[1,bZ(a[1])];case
-6:return[3,bZ(a[1])];case
-7:return[5,bZ(a[1])];case
-8:return[7,bZ(a[1])];default:return[9,bZ(a[1])]}}function
-bY(a){if(typeof
+0:return[1,b0(a[1])];case
+1:return[3,b0(a[1])];case
+2:return[5,b0(a[1])];case
+3:return[7,b0(a[1])];case
+4:return[9,b0(a[1])];case
+5:return[1,b1(a[1])];case
+6:return[3,b1(a[1])];case
+7:return[5,b1(a[1])];case
+8:return[7,b1(a[1])];default:return[9,b1(a[1])]}}function
+b0(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,bY(a[1])];case
-1:return[2,bY(a[1])];case
-2:return[4,bY(a[1])];case
-3:return[6,bY(a[1])];case
-4:return[8,bY(a[1])];case
-5:return[0,bZ(a[1])];case
-6:return[2,bZ(a[1])];case
-7:return[4,bZ(a[1])];case
-8:return[6,bZ(a[1])];default:return[8,bZ(a[1])]}}function
-aS(a){return a?a[1]:a}function
+0:return[0,b0(a[1])];case
+1:return[2,b0(a[1])];case
+2:return[4,b0(a[1])];case
+3:return[6,b0(a[1])];case
+4:return[8,b0(a[1])];case
+5:return[0,b1(a[1])];case
+6:return[2,b1(a[1])];case
+7:return[4,b1(a[1])];case
+8:return[6,b1(a[1])];default:return[8,b1(a[1])]}}function
+aT(a){return a?a[1]:a}function
 N(b,a){return b?[0,N(b[1],a)]:a}function
-me(a,b){return a?N(b,me(a[1],b)):a}function
-dE(d,c){var
+mn(a,b){return a?N(b,mn(a[1],b)):a}function
+dJ(d,c){var
 a=d,b=c;for(;;){if(a){if(b){var
 a=a[1],b=b[1];continue}return a}return a}}function
-cE(b,a){return b?a:a?0:1}function
+cI(b,a){return b?a:a?0:1}function
 n(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
 ae(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-aE(b,a){return ae([0,b],a)}function
-av(d,c){var
+aF(b,a){return ae([0,b],a)}function
+ax(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return 2}var
 e=a?1:a;return e}}function
-mf(c){var
+mo(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-gD(c,b,a){return c?h(b,gD(c[1],b,a)):a}function
-mg(a){if(a)var
-b=a[1],d=b?[0,mg(b[1])]:b,c=d;else
+gL(c,b,a){return c?h(b,gL(c[1],b,a)):a}function
+mp(a){if(a)var
+b=a[1],d=b?[0,mp(b[1])]:b,c=d;else
 var
 c=a;return c}function
-iV(d,c){var
+i1(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-mh(a){if(F(a,b))return b;var
-e=aY(a,aN(2)),f=e[1];return L(e[2],d)?q(c(2,mh(f))):q(c(2,c(2,f)))}function
-mi(c,a){return bs(b,aQ(c,a))}function
-gE(a,j,i){var
+mq(a){if(F(a,b))return b;var
+e=aY(a,aO(2)),f=e[1];return L(e[2],d)?q(c(2,mq(f))):q(c(2,c(2,f)))}function
+mr(c,a){return bv(b,aR(c,a))}function
+gM(a,j,i){var
 c=j,f=i;for(;;){if(F(f,b))return h(a,c);var
-g=aY(f,aN(2)),e=g[1];if(L(g[2],d)){var
-c=gE(a,c,e),f=e;continue}return h(a,gE(a,gE(a,c,e),e))}}function
-gF(a){function
-c(b){return D(a,b)}return function(a){return gE(c,b,a)}}function
-gG(a){if(F(a,b))return t1;var
-c=aY(a,aN(2)),e=c[1];return L(c[2],d)?[0,gG(e)]:[0,gG(e)]}function
-gH(a){if(F(a,b))return b;var
-c=aY(a,aN(2)),e=c[1];return L(c[2],d)?q(gH(e)):q(gH(e))}function
-mj(c,b){var
-a=l0(c,b);return 0===a?0:0<=a?2:1}function
-gI(j,i){var
-c=j,a=i;for(;;){if(F(c,b))return F(a,b)?1:L(aY(a,aN(2))[2],d)?0:0;var
-g=aY(c,aN(2)),h=g[1];if(L(g[2],d)){if(F(a,b))return 0;var
-e=aY(a,aN(2)),k=e[1];if(L(e[2],d)){var
+g=aY(f,aO(2)),e=g[1];if(L(g[2],d)){var
+c=gM(a,c,e),f=e;continue}return h(a,gM(a,gM(a,c,e),e))}}function
+gN(a){function
+c(b){return D(a,b)}return function(a){return gM(c,b,a)}}function
+gO(a){if(F(a,b))return ud;var
+c=aY(a,aO(2)),e=c[1];return L(c[2],d)?[0,gO(e)]:[0,gO(e)]}function
+gP(a){if(F(a,b))return b;var
+c=aY(a,aO(2)),e=c[1];return L(c[2],d)?q(gP(e)):q(gP(e))}function
+ms(c,b){var
+a=l9(c,b);return 0===a?0:0<=a?2:1}function
+gQ(j,i){var
+c=j,a=i;for(;;){if(F(c,b))return F(a,b)?1:L(aY(a,aO(2))[2],d)?0:0;var
+g=aY(c,aO(2)),h=g[1];if(L(g[2],d)){if(F(a,b))return 0;var
+e=aY(a,aO(2)),k=e[1];if(L(e[2],d)){var
 c=h,a=k;continue}return 0}if(F(a,b))return 0;var
-f=aY(a,aN(2)),l=f[1];if(L(f[2],d))return 0;var
+f=aY(a,aO(2)),l=f[1];if(L(f[2],d))return 0;var
 c=h,a=l;continue}}function
-gJ(b,a){return 2<=mj(b,a)?0:1}function
-es(i,e,a){if(i){var
+gR(b,a){return 2<=ms(b,a)?0:1}function
+ez(i,e,a){if(i){var
 f=i[1];if(F(e,b))return[0,b,[0,b,a]];var
-w=aY(e,aN(2)),g=w[1];if(L(w[2],d)){if(F(a,b))return[0,b,[0,e,b]];var
-m=aY(a,aN(2)),A=m[1];if(L(m[2],d)){var
-j=es(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
-k=es(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(F(a,b))return[0,b,[0,e,b]];var
-v=aY(a,aN(2)),h=v[1];if(L(v[2],d)){var
-n=es(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(mj(g,h)){case
+w=aY(e,aO(2)),g=w[1];if(L(w[2],d)){if(F(a,b))return[0,b,[0,e,b]];var
+m=aY(a,aO(2)),A=m[1];if(L(m[2],d)){var
+j=ez(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
+k=ez(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(F(a,b))return[0,b,[0,e,b]];var
+v=aY(a,aO(2)),h=v[1];if(L(v[2],d)){var
+n=ez(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(ms(g,h)){case
 0:return[0,e,[0,b,b]];case
 1:var
-p=es(f,mi(h,g),e),q=p[2],r=q[2],C=[0,r,G(r,c(2,q[1]))];return[0,p[1],C];default:var
-s=es(f,mi(g,h),a),t=s[2],u=t[2],D=[0,G(u,c(2,t[1])),u];return[0,s[1],D]}}return[0,b,[0,e,a]]}function
-gK(b,a){var
-c=gG(a);return es(N(gG(b),c),b,a)}function
-mk(c,i,h){var
+p=ez(f,mr(h,g),e),q=p[2],r=q[2],C=[0,r,G(r,c(2,q[1]))];return[0,p[1],C];default:var
+s=ez(f,mr(g,h),a),t=s[2],u=t[2],D=[0,G(u,c(2,t[1])),u];return[0,s[1],D]}}return[0,b,[0,e,a]]}function
+gS(b,a){var
+c=gO(a);return ez(N(gO(b),c),b,a)}function
+mt(c,i,h){var
 e=i,a=h;for(;;){if(F(e,b))return a;var
-f=aY(e,aN(2)),g=f[1];if(L(f[2],d)){var
-e=g,a=as(c,a,a);continue}return as(c,a,mk(c,g,as(c,a,a)))}}function
-fm(a){return mk(N,a,t2)}function
-ml(a){return a?q(ml(a[1])):b}function
-cF(f,e){var
+f=aY(e,aO(2)),g=f[1];if(L(f[2],d)){var
+e=g,a=as(c,a,a);continue}return as(c,a,mt(c,g,as(c,a,a)))}}function
+fw(a){return mt(N,a,ue)}function
+mu(a){return a?q(mu(a[1])):b}function
+cJ(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
@@ -944,74 +945,74 @@ t=D(c(2,q(c(2,c(2,b)))),d),u=G(q(c(2,q(c(2,b)))),t),a=a[1],d=u;continue;case
 8:var
 v=D(c(2,q(c(2,c(2,b)))),d),w=G(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
 x=D(c(2,q(c(2,c(2,b)))),d),y=G(q(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
-iW(a){if(F(a,b))return t3;var
-c=aY(a,aN(2)),e=c[1];return L(c[2],d)?bY(iW(e)):bZ(iW(e))}function
-gL(a){return gC(iW(a))}function
-mm(c,b){var
-a=l0(c,b);return 0===a?0:0<=a?2:1}function
-mn(b,a){return 0<aX(b)?0<aX(a)?gI(b,a):0:0<aX(a)?0:1}function
-mo(b,a){return 2<=mm(b,a)?0:1}function
-gM(b,a){return 1===mm(b,a)?1:0}var
-mp=G,t5=R;function
-cf(k,f){if(0<=aX(f)){var
-g=iQ(f);if(0<=g){var
+i2(a){if(F(a,b))return uf;var
+c=aY(a,aO(2)),e=c[1];return L(c[2],d)?b0(i2(e)):b1(i2(e))}function
+gT(a){return gK(i2(a))}function
+mv(c,b){var
+a=l9(c,b);return 0===a?0:0<=a?2:1}function
+mw(b,a){return 0<aX(b)?0<aX(a)?gQ(b,a):0:0<aX(a)?0:1}function
+mx(b,a){return 2<=mv(b,a)?0:1}function
+gU(b,a){return 1===mv(b,a)?1:0}var
+my=G,uh=R;function
+cj(k,f){if(0<=aX(f)){var
+g=iW(f);if(0<=g){var
 e=b,c=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=D(c,c),j=1===(a&1)?D(e,c):e,e=j,c=i,a=h;continue}}return gB(tX)}return d}function
-iX(c,b){var
-a=l0(c,b);return 0===a?0:0<=a?2:1}function
-iY(c){var
+h=a>>>1|0,i=D(c,c),j=1===(a&1)?D(e,c):e,e=j,c=i,a=h;continue}}return gJ(t$)}return d}function
+i3(c,b){var
+a=l9(c,b);return 0===a?0:0<=a?2:1}function
+i4(c){var
 a=aX(c);return 0===a?d:0<a?b:R(b)}function
-iZ(a){return 0<=aX(a)?a:d}function
-et(a){var
+i5(a){return 0<=aX(a)?a:d}function
+eA(a){var
 c=aX(a);return 0===c?b:0<c?a:b}function
-mq(m){var
+mz(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return cF(a[1],b);case
+1:return cJ(a[1],b);case
 2:var
-e=c(2,b);return cF(a[1],e);case
+e=c(2,b);return cJ(a[1],e);case
 3:var
-f=q(c(2,b));return cF(a[1],f);case
+f=q(c(2,b));return cJ(a[1],f);case
 4:var
-g=c(2,c(2,b));return cF(a[1],g);case
+g=c(2,c(2,b));return cJ(a[1],g);case
 5:var
-h=q(c(2,c(2,b)));return cF(a[1],h);case
+h=q(c(2,c(2,b)));return cJ(a[1],h);case
 6:var
-i=c(2,q(c(2,b)));return cF(a[1],i);case
+i=c(2,q(c(2,b)));return cJ(a[1],i);case
 7:var
-j=q(c(2,q(c(2,b))));return cF(a[1],j);case
+j=q(c(2,q(c(2,b))));return cJ(a[1],j);case
 8:var
-k=c(2,c(2,c(2,b)));return cF(a[1],k);default:var
-l=q(c(2,c(2,c(2,b))));return cF(a[1],l)}}function
-cG(b,a){var
-c=aX(a);return 0===c?d:1===c?l1(b,a):ma(-1,l1(ma(-1,b),a))}function
-mr(a){var
+k=c(2,c(2,c(2,b)));return cJ(a[1],k);default:var
+l=q(c(2,c(2,c(2,b))));return cJ(a[1],l)}}function
+cK(b,a){var
+c=aX(a);return 0===c?d:1===c?l_(b,a):mj(-1,l_(mj(-1,b),a))}function
+mA(a){var
 f=aX(a);if(0===f)return d;if(0<f){if(F(a,b))return d;var
-c=aY(a,aN(2)),e=c[1];return L(c[2],d)?gH(e):gH(e)}return d}function
-gN(a){return 0<aX(a)?Lm(a):d}function
-fn(b,c){var
-a=iQ(c);return 0<=a?tP(b,a):tQ(b,-a|0)}function
-dF(b,c){var
-a=iQ(c);return 0<=a?tQ(b,a):tP(b,-a|0)}function
-bJ(b,a){return a?a[1]:b}function
-bz(a){var
+c=aY(a,aO(2)),e=c[1];return L(c[2],d)?gP(e):gP(e)}return d}function
+gV(a){return 0<aX(a)?LH(a):d}function
+fx(b,c){var
+a=iW(c);return 0<=a?t3(b,a):t4(b,-a|0)}function
+dK(b,c){var
+a=iW(c);return 0<=a?t4(b,a):t3(b,-a|0)}function
+bK(b,a){return a?a[1]:b}function
+bC(a){var
 b=a?a[2]:a;return b}function
-s(e,d,c){var
+r(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
 E(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-eu(d,c){var
+eB(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-cH(a){if(a){var
-b=cH(a[2]);return g(a[1],b)}return a}function
-i0(g,f,e){var
+cL(a){if(a){var
+b=cL(a[2]);return g(a[1],b)}return a}function
+i6(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
 c=as(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
@@ -1024,12 +1025,12 @@ var
 c=a;return c}function
 y(b,a){if(a){var
 c=y(b,a[2]);return g(h(b,a[1]),c)}return a}function
-bA(e,d,c){var
+bD(e,d,c){var
 a=d,b=c;for(;;){if(a){var
 f=as(e,b,a[1]),a=a[2],b=f;continue}return b}}function
 aq(c,b,a){if(a){var
 d=aq(c,b,a[2]);return as(c,a[1],d)}return b}function
-al(e,d){var
+aj(e,d){var
 a=d;for(;;){if(a){var
 b=h(e,a[1]);if(!b){var
 a=a[2];continue}var
@@ -1040,11 +1041,11 @@ l(d,c){var
 a=c;for(;;){if(a){var
 b=h(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-a6(b,e){var
+aZ(b,e){var
 a=e;for(;;){if(a){var
-c=a[2],d=a[1];if(h(b,d))return[0,d,a6(b,c)];var
+c=a[2],d=a[1];if(h(b,d))return[0,d,aZ(b,c)];var
 a=c;continue}return a}}function
-ms(d,c){var
+mB(d,c){var
 a=c;for(;;){if(a){var
 b=a[1];if(h(d,b))return[0,b];var
 a=a[2];continue}return a}}function
@@ -1060,117 +1061,117 @@ var
 c=a;else
 var
 c=b;return c}function
-aw(d,c){var
+ay(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
-aI(b,a){var
-c=a?[0,b,aI([0,b],a[1])]:a;return c}function
-ac(b,a){var
-c=a?[0,b,ac(b,a[1])]:a;return c}function
-mt(a){return aq(N,0,a)}function
-mu(a){if(a){var
-e=mu(a[2]),f=D(c(2,b),e),g=a[1]?b:d;return G(g,f)}return d}function
-mv(j){function
+aB(b,a){var
+c=a?[0,b,aB([0,b],a[1])]:a;return c}function
+ab(b,a){var
+c=a?[0,b,ab(b,a[1])]:a;return c}function
+mC(a){return aq(N,0,a)}function
+mD(a){if(a){var
+e=mD(a[2]),f=D(c(2,b),e),g=a[1]?b:d;return G(g,f)}return d}function
+mE(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=mu([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aX(b)?fm(b):0}function
-mw(c,b){var
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=mD([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aX(b)?fw(b):0}function
+mF(c,b){var
 a=c-b|0,d=0<=a?0===a?0:2:1;return 2<=d?0:1}function
-mx(a){return[0,a,b]}function
-ev(b,a){return iX(D(b[1],a[2]),D(a[1],b[2]))?0:1}function
-bn(b,a){return F(D(b[1],a[2]),D(a[1],b[2]))}function
-dG(b,a){return[0,G(D(b[1],a[2]),D(a[1],b[2])),D(b[2],a[2])]}function
+mG(a){return[0,a,b]}function
+eC(b,a){return i3(D(b[1],a[2]),D(a[1],b[2]))?0:1}function
+bo(b,a){return F(D(b[1],a[2]),D(a[1],b[2]))}function
+dL(b,a){return[0,G(D(b[1],a[2]),D(a[1],b[2])),D(b[2],a[2])]}function
 a_(b,a){return[0,D(b[1],a[1]),D(b[2],a[2])]}function
-gO(a){return[0,R(a[1]),a[2]]}function
-dH(b,a){return dG(b,gO(a))}function
-gP(f,c){var
+gW(a){return[0,R(a[1]),a[2]]}function
+dM(b,a){return dL(b,gW(a))}function
+gX(f,c){var
 a=c[1],e=aX(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,R(c[2]),R(a)];return a_(f,g)}function
-dI(q){var
+dN(q){var
 a=q[2],b=q[1],o=aX(b);if(0===o)var
-c=[0,cC(a),[0,d,iY(a)]];else
+c=[0,cG(a),[0,d,i4(a)]];else
 if(0<o){var
 n=aX(a);if(0===n)var
-c=[0,cC(b),[0,iY(b),d]];else
+c=[0,cG(b),[0,i4(b),d]];else
 if(0<n)var
-l=gK(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
+l=gS(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
-j=gK(b,R(a)),k=j[2],c=[0,j[1],[0,k[1],R(k[2])]]}else{var
+j=gS(b,R(a)),k=j[2],c=[0,j[1],[0,k[1],R(k[2])]]}else{var
 p=R(b),i=aX(a);if(0===i)var
-c=[0,cC(b),[0,iY(b),d]];else
+c=[0,cG(b),[0,i4(b),d]];else
 if(0<i)var
-g=gK(p,a),h=g[2],c=[0,g[1],[0,R(h[1]),h[2]]];else
+g=gS(p,a),h=g[2],c=[0,g[1],[0,R(h[1]),h[2]]];else
 var
-e=gK(p,R(a)),f=e[2],c=[0,e[1],[0,R(f[1]),R(f[2])]]}var
-r=c[2],s=et(r[2]);return[0,r[1],s]}function
-bt(a){if(typeof
-a==="number")return t7;else
+e=gS(p,R(a)),f=e[2],c=[0,e[1],[0,R(f[1]),R(f[2])]]}var
+r=c[2],s=eA(r[2]);return[0,r[1],s]}function
+bw(a){if(typeof
+a==="number")return uj;else
 switch(a[0]){case
 0:var
-b=bt(a[1]);return bm(bX(1,48),b);case
+b=bw(a[1]);return bn(bZ(1,48),b);case
 1:var
-c=bt(a[1]);return bm(bX(1,49),c);case
+c=bw(a[1]);return bn(bZ(1,49),c);case
 2:var
-d=bt(a[1]);return bm(bX(1,50),d);case
+d=bw(a[1]);return bn(bZ(1,50),d);case
 3:var
-e=bt(a[1]);return bm(bX(1,51),e);case
+e=bw(a[1]);return bn(bZ(1,51),e);case
 4:var
-f=bt(a[1]);return bm(bX(1,52),f);case
+f=bw(a[1]);return bn(bZ(1,52),f);case
 5:var
-g=bt(a[1]);return bm(bX(1,53),g);case
+g=bw(a[1]);return bn(bZ(1,53),g);case
 6:var
-h=bt(a[1]);return bm(bX(1,54),h);case
+h=bw(a[1]);return bn(bZ(1,54),h);case
 7:var
-i=bt(a[1]);return bm(bX(1,55),i);case
+i=bw(a[1]);return bn(bZ(1,55),i);case
 8:var
-j=bt(a[1]);return bm(bX(1,56),j);default:var
-k=bt(a[1]);return bm(bX(1,57),k)}}function
-fo(a){return typeof
-a==="number"?t8:bt(a)}function
-cI(a){return cf(c(2,b),a)}function
-my(b,a){return dF(a,b)}function
-mz(b,a){return R(dF(R(a),b))}function
-gQ(b,a){return R(cG(R(b),a))}function
+j=bw(a[1]);return bn(bZ(1,56),j);default:var
+k=bw(a[1]);return bn(bZ(1,57),k)}}function
+fy(a){return typeof
+a==="number"?uk:bw(a)}function
+cM(a){return cj(c(2,b),a)}function
+mH(b,a){return dK(a,b)}function
+mI(b,a){return R(dK(R(a),b))}function
+gY(b,a){return R(cK(R(b),a))}function
 J(c,b){var
-a=fn(b,c);return[0,a,a]}function
-mA(d,c,a){var
-b=fn(c,d),e=gQ(b,a);return[0,cG(b,a),e]}function
+a=fx(b,c);return[0,a,a]}function
+mJ(d,c,a){var
+b=fx(c,d),e=gY(b,a);return[0,cK(b,a),e]}function
 A(b,a){return[0,G(b[1],a[1]),G(b[2],a[2])]}function
-C(b,a){return[0,aQ(b[1],a[2]),aQ(b[2],a[1])]}function
+C(b,a){return[0,aR(b[1],a[2]),aR(b[2],a[1])]}function
 $(a){return[0,R(a[2]),R(a[1])]}function
-mB(e,c,b,a){if(F(d,e))return F(d,b)?[0,D(e,b),D(c,a)]:F(a,d)?[0,D(c,b),D(e,a)]:[0,D(c,b),D(c,a)];if(F(c,d))return F(d,b)?[0,D(e,a),D(c,b)]:F(a,d)?[0,D(c,a),D(e,b)]:[0,D(e,a),D(e,b)];if(F(d,b))return[0,D(e,a),D(c,a)];if(F(a,d))return[0,D(c,b),D(e,b)];var
-f=bs(D(e,b),D(c,a));return[0,iU(D(e,a),D(c,b)),f]}function
+mK(e,c,b,a){if(F(d,e))return F(d,b)?[0,D(e,b),D(c,a)]:F(a,d)?[0,D(c,b),D(e,a)]:[0,D(c,b),D(c,a)];if(F(c,d))return F(d,b)?[0,D(e,a),D(c,b)]:F(a,d)?[0,D(c,a),D(e,b)]:[0,D(e,a),D(e,b)];if(F(d,b))return[0,D(e,a),D(c,a)];if(F(a,d))return[0,D(c,b),D(e,b)];var
+f=bv(D(e,b),D(c,a));return[0,i0(D(e,a),D(c,b)),f]}function
 t(c,b,a){var
-d=mB(b[1],b[2],a[1],a[2]),e=mz(c,d[2]);return[0,my(c,d[1]),e]}function
+d=mK(b[1],b[2],a[1],a[2]),e=mI(c,d[2]);return[0,mH(c,d[1]),e]}function
 S(b,a){var
-c=D(a[1],a[1]),e=D(a[2],a[2]),h=mz(b,bs(c,e)),g=0;if(K(a[1],d)&&K(d,a[2])){var
+c=D(a[1],a[1]),e=D(a[2],a[2]),h=mI(b,bv(c,e)),g=0;if(K(a[1],d)&&K(d,a[2])){var
 f=d;g=1}if(!g)var
-f=my(b,iU(c,e));return[0,f,h]}function
-i1(b,a){var
-c=fn(cI(b),b),d=gQ(c,a[1]);return[0,cG(c,a[2]),d]}function
-b0(b,a){if(K(d,a[1]))return[0,i1(b,a)];var
-c=K(a[2],d),e=c?[0,$(i1(b,$(a)))]:c;return e}function
-i2(c){var
-a=gN(c);return L(D(a,a),c)?a:G(a,b)}function
-cg(b,a){var
+f=mH(b,i0(c,e));return[0,f,h]}function
+i7(b,a){var
+c=fx(cM(b),b),d=gY(c,a[1]);return[0,cK(c,a[2]),d]}function
+b2(b,a){if(K(d,a[1]))return[0,i7(b,a)];var
+c=K(a[2],d),e=c?[0,$(i7(b,$(a)))]:c;return e}function
+i8(c){var
+a=gV(c);return L(D(a,a),c)?a:G(a,b)}function
+ck(b,a){var
 c=K(d,a[1]);if(c)var
-f=i2(fn(a[2],b)),e=[0,[0,gN(fn(a[1],b)),f]];else
+f=i8(fx(a[2],b)),e=[0,[0,gV(fx(a[1],b)),f]];else
 var
 e=c;return e}function
-ew(a){return 0===a[0]?a[2]:a[1]}function
-aT(f,d,c,b,a){if(b){if(a){var
-g=aT(f,d,c,b[2],a[2]);return[0,as(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
-c4(b,a){return dF(b,a)}function
-aR(a,c,b){if(F(d,a)){var
-e=b[1],f=R(c4(R(D(a,b[2])),c));return[0,c4(D(a,e),c),f]}var
-g=b[2],h=R(c4(R(D(a,b[1])),c));return[0,c4(D(a,g),c),h]}function
-ax(a){var
-c=R(dF(R(a[2]),b));return[0,dF(a[1],b),c]}function
-ex(c,b,a){var
-e=mB(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=K(f,d)?a[2]:a[1],i=gQ(f,h),j=K(g,d)?a[1]:a[2];return[0,cG(g,j),i]}function
-bK(a){return bs(a[2],R(a[1]))}var
+eD(a){return 0===a[0]?a[2]:a[1]}function
+aU(f,d,c,b,a){if(b){if(a){var
+g=aU(f,d,c,b[2],a[2]);return[0,as(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
+c9(b,a){return dK(b,a)}function
+aS(a,c,b){if(F(d,a)){var
+e=b[1],f=R(c9(R(D(a,b[2])),c));return[0,c9(D(a,e),c),f]}var
+g=b[2],h=R(c9(R(D(a,b[1])),c));return[0,c9(D(a,g),c),h]}function
+au(a){var
+c=R(dK(R(a[2]),b));return[0,dK(a[1],b),c]}function
+eE(c,b,a){var
+e=mK(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=K(f,d)?a[2]:a[1],i=gY(f,h),j=K(g,d)?a[1]:a[2];return[0,cK(g,j),i]}function
+bL(a){return bv(a[2],R(a[1]))}var
 u=[0,d,d];function
-ch(a){return[0,a[1],a[1]]}function
-cJ(a){return[0,a[2],a[2]]}function
-ci(b,a){switch(a[0]){case
+cl(a){return[0,a[1],a[1]]}function
+cN(a){return[0,a[2],a[2]]}function
+b3(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
@@ -1186,68 +1187,68 @@ f=h(b,a[2]);return[7,h(b,a[1]),f];case
 8:return[8,h(b,a[1])];case
 9:return[9,h(b,a[1])];default:var
 g=h(b,a[4]),i=h(b,a[3]),j=h(b,a[2]);return[10,a[1],j,i,g]}}function
-aZ(o,m){var
+a0(o,m){var
 d=o,c=m;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
 0:return 0===a[0]?n(b[1],a[1]):0;case
 1:return 1===a[0]?n(b[1],a[1]):0;case
 2:return 2===a[0]?L(b[1],a[1]):0;case
 3:if(3===a[0]){var
-f=aZ(b[1],a[1]);if(f){var
+f=a0(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 4:if(4===a[0]){var
-g=aZ(b[1],a[1]);if(g){var
+g=a0(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-h=aZ(b[1],a[1]);if(h){var
+h=a0(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 7:if(7===a[0]){var
-i=aZ(b[1],a[1]);if(i){var
+i=a0(b[1],a[1]);if(i){var
 d=b[2],c=a[2];continue}return i}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 9:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(10===a[0]){var
-j=cE(b[1],a[1]);if(j){var
-k=aZ(b[2],a[2]);if(k){var
-l=aZ(b[3],a[3]);if(l){var
+j=cI(b[1],a[1]);if(j){var
+k=a0(b[2],a[2]);if(k){var
+l=a0(b[3],a[3]);if(l){var
 d=b[4],c=a[4];continue}var
 e=l}else
 var
 e=k}else
 var
 e=j;return e}return 0}}}function
-gR(b){var
+gZ(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
 be(c,b){var
-a=gR(b);return a?L(c,a[1]):a}function
-fp(a){return K(cC(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
+a=gZ(b);return a?L(c,a[1]):a}function
+fz(a){return K(cG(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
 m(a){return[0,[2,a]]}function
 B(b,a){if(be(d,b))return a;if(be(d,a))return b;var
-c=gR(b);if(c){var
-e=c[1],f=gR(a);if(f){var
-g=f[1];if(fp(e)&&fp(g))return m(G(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-bu(a){var
+c=gZ(b);if(c){var
+e=c[1],f=gZ(a);if(f){var
+g=f[1];if(fz(e)&&fz(g))return m(G(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+bx(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return fp(c)?m(R(c)):[0,[5,a]];case
+c=b[1];return fz(c)?m(R(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-x(b,a){if(be(d,a))return b;if(be(d,b))return bu(a);var
+z(b,a){if(be(d,a))return b;if(be(d,b))return bx(a);var
 c=b[1];if(0===c[0]){var
 e=a[1];return 0===e[0]?n(c[1],e[1])?m(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
 W(a){var
-c=gR(a);if(c){var
-b=c[1];return fp(b)?m(D(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-r(a,c){if(!be(d,a)&&!be(b,c)){if(!be(d,c)&&!be(b,a))return aZ(a,c)?W(a):[0,[6,a,c]];return c}return a}function
+c=gZ(a);if(c){var
+b=c[1];return fz(b)?m(D(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+s(a,c){if(!be(d,a)&&!be(b,c)){if(!be(d,c)&&!be(b,a))return a0(a,c)?W(a):[0,[6,a,c]];return c}return a}function
 ai(c,a){return be(b,a)?c:[0,[7,c,a]]}function
-aL(a){return be(b,a)?a:[0,[9,a]]}function
-mC(d,c,b,a){return[0,[10,d,c,b,a]]}function
-ey(b,a){if(a){var
+aM(a){return be(b,a)?a:[0,[9,a]]}function
+mL(d,c,b,a){return[0,[10,d,c,b,a]]}function
+eF(b,a){if(a){var
 c=a[3];if(c){var
 d=a[1];return n(d,c[1])?[0,[0,d],[1,b,a[2],c[2]],c[3]]:[0,0,[0,b],a]}return[0,0,[0,b],a]}return[0,0,[0,b],a]}function
-i3(g,f,e){var
+i9(g,f,e){var
 c=f,d=e;for(;;){if(d){if(typeof
 c!=="number"&&2===c[0]){var
 c=c[1],d=d[3];continue}var
@@ -1257,34 +1258,34 @@ b!=="number")switch(b[0]){case
 b=b[1],a=a[2];continue;case
 1:var
 b=b[1],a=a[3];continue}return a[1]}}return g}}function
-i4(a,b){if(0===a[0])return[0,a[1],b];var
-c=i4(a[3],b),d=i4(a[2],c);return[0,a[1],d]}function
-i5(a){if(a){var
-b=i5(a[3]);return i4(a[2],b)}return a}function
-mD(a){if(a){var
+i_(a,b){if(0===a[0])return[0,a[1],b];var
+c=i_(a[3],b),d=i_(a[2],c);return[0,a[1],d]}function
+i$(a){if(a){var
+b=i$(a[3]);return i_(a[2],b)}return a}function
+mM(a){if(a){var
 c=a[3],b=a[2],d=a[1];if(0===b[0])return[0,[0,b[1],c]];var
-e=b[3],f=[0,aS(d),e,c],g=b[2],h=[0,aS(d),g,f];return[0,[0,b[1],h]]}return a}function
-i6(c,b,a){if(0===a[0])return[0,c];var
+e=b[3],f=[0,aT(d),e,c],g=b[2],h=[0,aT(d),g,f];return[0,[0,b[1],h]]}return a}function
+ja(c,b,a){if(0===a[0])return[0,c];var
 d=a[3],e=a[2],f=a[1];if(typeof
 b!=="number")switch(b[0]){case
-0:return[1,f,i6(c,b[1],e),d];case
-1:return[1,f,e,i6(c,b[1],d)]}return[1,c,e,d]}function
-mE(c,b,a){if(a){var
+0:return[1,f,ja(c,b[1],e),d];case
+1:return[1,f,e,ja(c,b[1],d)]}return[1,c,e,d]}function
+mN(c,b,a){if(a){var
 d=a[3],e=a[2],f=a[1];if(typeof
-b!=="number"&&2===b[0])return[0,f,e,mE(c,b[1],d)];var
-g=[0,f,i6(c,b,e),d]}else
+b!=="number"&&2===b[0])return[0,f,e,mN(c,b[1],d)];var
+g=[0,f,ja(c,b,e),d]}else
 var
 g=a;return g}function
-c5(g,f,e){var
+c_(g,f,e){var
 b=e,a=0;for(;;){if(b){var
-c=b[1],d=ey(h(f,ci(function(b){return function(a){return i3(g,a,b)}}(a),c)),a),b=b[2],a=d;continue}return i5(a)}}function
-cj(e,g,m,l){var
+c=b[1],d=eF(h(f,b3(function(b){return function(a){return i9(g,a,b)}}(a),c)),a),b=b[2],a=d;continue}return i$(a)}}function
+c$(e,g,m,l){var
 b=m,c=l,a=0;for(;;){if(c){var
 d=c[2],f=c[1];if(b){if(b[1]){var
-i=ey(h(g,ci(function(b){return function(a){return i3(e,a,b)}}(a),f)),a),b=bz(b),c=d,a=i;continue}var
-j=ey(e,a),b=b[2],c=d,a=j;continue}var
-k=ey(h(g,ci(function(b){return function(a){return i3(e,a,b)}}(a),f)),a),b=bz(b),c=d,a=k;continue}return i5(a)}}function
-mF(a){switch(a[0]){case
+i=eF(h(g,b3(function(b){return function(a){return i9(e,a,b)}}(a),f)),a),b=bC(b),c=d,a=i;continue}var
+j=eF(e,a),b=b[2],c=d,a=j;continue}var
+k=eF(h(g,b3(function(b){return function(a){return i9(e,a,b)}}(a),f)),a),b=bC(b),c=d,a=k;continue}return i$(a)}}function
+mO(a){switch(a[0]){case
 10:return[0,a[2],[0,a[3],[0,a[4],0]]];case
 5:case
 8:case
@@ -1292,137 +1293,137 @@ mF(a){switch(a[0]){case
 0:case
 1:case
 2:return 0;default:return[0,a[1],[0,a[2],0]]}}var
-t9=1;function
-mG(a,b){return mE(t9,a,b)}function
-mH(e,c){if(c){var
+ul=1;function
+mP(a,b){return mN(ul,a,b)}function
+mQ(e,c){if(c){var
 f=c[2],g=c[1],b=g,a=e;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}var
 d=[0,b]}else
 var
 d=[1,a];if(0===d[0])return[0,e,[0,d[1],f]];var
-h=d[1];return h?[0,g,mH(h,f)]:c}}return[0,e,0]}function
-gS(c,b){if(b){var
+h=d[1];return h?[0,g,mQ(h,f)]:c}}return[0,e,0]}function
+g0(c,b){if(b){var
 d=b[2];if(c){var
-a=c[2],e=c[1];if(e)return[0,0,gS([0,e[1],a],d)];if(a)var
-h=a[2],f=[0,aS(a[1]),h];else
+a=c[2],e=c[1];if(e)return[0,0,g0([0,e[1],a],d)];if(a)var
+h=a[2],f=[0,aT(a[1]),h];else
 var
-f=a;return[0,1,gS(f,d)]}var
-g=[0,0,gS(0,d)]}else
+f=a;return[0,1,g0(f,d)]}var
+g=[0,0,g0(0,d)]}else
 var
 g=b;return g}function
-mI(b,a){var
-c=0;return aq(ey,0,gS(bA(function(b,a){return mH(a,b)},b,c),a))}function
-cK(k,h){var
-l=mI(k,h),b=eu(h,0),c=l,a=0;for(;;){if(b){var
-d=mD(c);if(d){var
-e=d[1],f=e[2],g=e[1],i=[0,g,a],j=g?aq(mG,f,mF(b[1])):f,b=b[2],c=j,a=i;continue}return a}return a}}function
-c6(a){function
-b(a){return[0,a]}return c5(m(d),b,a)}function
+mR(b,a){var
+c=0;return aq(eF,0,g0(bD(function(b,a){return mQ(a,b)},b,c),a))}function
+cO(k,h){var
+l=mR(k,h),b=eB(h,0),c=l,a=0;for(;;){if(b){var
+d=mM(c);if(d){var
+e=d[1],f=e[2],g=e[1],i=[0,g,a],j=g?aq(mP,f,mO(b[1])):f,b=b[2],c=j,a=i;continue}return a}return a}}function
+da(a){function
+b(a){return[0,a]}return c_(m(d),b,a)}function
 O(a){switch(a[0]){case
 0:return 0;case
-1:return t_;case
-2:return t$;case
-3:return ua;case
-4:return ub;case
-5:return uc;case
-6:return ud;case
-7:return ue;case
-8:return uf;case
-9:return ug;default:return uh}}function
+1:return um;case
+2:return un;case
+3:return uo;case
+4:return up;case
+5:return uq;case
+6:return ur;case
+7:return us;case
+8:return ut;case
+9:return uu;default:return uv}}function
 a7(J,I,H){var
 e=J,g=I,f=H;for(;;){if(e){var
 j=e[1];if(j){var
-a=f[1],c=g[1],h=z(aS,e);switch(c[0]){case
-0:if(0===a[0])return av(c[1],a[1]);var
-K=O(a);return av(O(c),K);case
-1:if(1===a[0])return av(c[1],a[1]);var
-L=O(a);return av(O(c),L);case
-2:if(2===a[0])return iX(c[1],a[1]);var
-M=O(a);return av(O(c),M);case
+a=f[1],c=g[1],h=x(aT,e);switch(c[0]){case
+0:if(0===a[0])return ax(c[1],a[1]);var
+K=O(a);return ax(O(c),K);case
+1:if(1===a[0])return ax(c[1],a[1]);var
+L=O(a);return ax(O(c),L);case
+2:if(2===a[0])return i3(c[1],a[1]);var
+M=O(a);return ax(O(c),M);case
 3:if(3===a[0]){var
 k=a7(h,c[2],a[2]);if(k)return k;var
 e=h,g=c[1],f=a[1];continue}var
-N=O(a);return av(O(c),N);case
+N=O(a);return ax(O(c),N);case
 4:if(4===a[0]){var
 l=a7(h,c[2],a[2]);if(l)return l;var
 e=h,g=c[1],f=a[1];continue}var
-P=O(a);return av(O(c),P);case
+P=O(a);return ax(O(c),P);case
 5:if(5===a[0]){var
 e=h,g=c[1],f=a[1];continue}var
-Q=O(a);return av(O(c),Q);case
+Q=O(a);return ax(O(c),Q);case
 6:if(6===a[0]){var
 m=a7(h,c[2],a[2]);if(m)return m;var
 e=h,g=c[1],f=a[1];continue}var
-R=O(a);return av(O(c),R);case
+R=O(a);return ax(O(c),R);case
 7:if(7===a[0]){var
 n=a7(h,c[2],a[2]);if(n)return n;var
 e=h,g=c[1],f=a[1];continue}var
-S=O(a);return av(O(c),S);case
+S=O(a);return ax(O(c),S);case
 8:if(8===a[0]){var
 e=h,g=c[1],f=a[1];continue}var
-T=O(a);return av(O(c),T);case
+T=O(a);return ax(O(c),T);case
 9:if(9===a[0]){var
 e=h,g=c[1],f=a[1];continue}var
-U=O(a);return av(O(c),U);default:var
+U=O(a);return ax(O(c),U);default:var
 o=c[4],p=c[3],q=c[2];if(c[1]){if(10===a[0]){if(a[1]){var
 r=a7(h,o,a[4]);if(r)return r;var
 s=a7(h,p,a[3]);if(s)return s;var
 e=h,g=q,f=a[2];continue}return 2}var
-V=O(a);return av(O(c),V)}if(10===a[0]){if(a[1])return 1;var
+V=O(a);return ax(O(c),V)}if(10===a[0]){if(a[1])return 1;var
 t=a7(h,o,a[4]);if(t)return t;var
 u=a7(h,p,a[3]);if(u)return u;var
 e=h,g=q,f=a[2];continue}var
-W=O(a);return av(O(c),W)}}return j}var
-b=f[1],d=g[1],i=z(aS,e);switch(d[0]){case
-0:if(0===b[0])return av(d[1],b[1]);var
-X=O(b);return av(O(d),X);case
-1:if(1===b[0])return av(d[1],b[1]);var
-Y=O(b);return av(O(d),Y);case
-2:if(2===b[0])return iX(d[1],b[1]);var
-Z=O(b);return av(O(d),Z);case
+W=O(a);return ax(O(c),W)}}return j}var
+b=f[1],d=g[1],i=x(aT,e);switch(d[0]){case
+0:if(0===b[0])return ax(d[1],b[1]);var
+X=O(b);return ax(O(d),X);case
+1:if(1===b[0])return ax(d[1],b[1]);var
+Y=O(b);return ax(O(d),Y);case
+2:if(2===b[0])return i3(d[1],b[1]);var
+Z=O(b);return ax(O(d),Z);case
 3:if(3===b[0]){var
 v=a7(i,d[2],b[2]);if(v)return v;var
 e=i,g=d[1],f=b[1];continue}var
-_=O(b);return av(O(d),_);case
+_=O(b);return ax(O(d),_);case
 4:if(4===b[0]){var
 w=a7(i,d[2],b[2]);if(w)return w;var
 e=i,g=d[1],f=b[1];continue}var
-$=O(b);return av(O(d),$);case
+$=O(b);return ax(O(d),$);case
 5:if(5===b[0]){var
 e=i,g=d[1],f=b[1];continue}var
-aa=O(b);return av(O(d),aa);case
+aa=O(b);return ax(O(d),aa);case
 6:if(6===b[0]){var
-x=a7(i,d[2],b[2]);if(x)return x;var
-e=i,g=d[1],f=b[1];continue}var
-ab=O(b);return av(O(d),ab);case
-7:if(7===b[0]){var
 y=a7(i,d[2],b[2]);if(y)return y;var
 e=i,g=d[1],f=b[1];continue}var
-ac=O(b);return av(O(d),ac);case
+ab=O(b);return ax(O(d),ab);case
+7:if(7===b[0]){var
+z=a7(i,d[2],b[2]);if(z)return z;var
+e=i,g=d[1],f=b[1];continue}var
+ac=O(b);return ax(O(d),ac);case
 8:if(8===b[0]){var
 e=i,g=d[1],f=b[1];continue}var
-ad=O(b);return av(O(d),ad);case
+ad=O(b);return ax(O(d),ad);case
 9:if(9===b[0]){var
 e=i,g=d[1],f=b[1];continue}var
-ae=O(b);return av(O(d),ae);default:var
+ae=O(b);return ax(O(d),ae);default:var
 A=d[4],B=d[3],C=d[2];if(d[1]){if(10===b[0]){if(b[1]){var
 D=a7(i,A,b[4]);if(D)return D;var
 E=a7(i,B,b[3]);if(E)return E;var
 e=i,g=C,f=b[2];continue}return 2}var
-af=O(b);return av(O(d),af)}if(10===b[0]){if(b[1])return 1;var
+af=O(b);return ax(O(d),af)}if(10===b[0]){if(b[1])return 1;var
 F=a7(i,A,b[4]);if(F)return F;var
 G=a7(i,B,b[3]);if(G)return G;var
 e=i,g=C,f=b[2];continue}var
-ag=O(b);return av(O(d),ag)}}}function
-mJ(b,a){var
-c=a7(ui,b,a);return c?c:a7(0,b,a)}function
-mK(c,b){var
-a=b;for(;;){if(a)switch(mJ(c,a[3])){case
+ag=O(b);return ax(O(d),ag)}}}function
+mS(b,a){var
+c=a7(uw,b,a);return c?c:a7(0,b,a)}function
+mT(c,b){var
+a=b;for(;;){if(a)switch(mS(c,a[3])){case
 0:return[0,a[4]];case
 1:var
 a=a[2];continue;default:var
 a=a[5];continue}return a}}function
-uj(b,d,c,a){if(b){var
+ux(b,d,c,a){if(b){var
 e=b[5],s=b[4],t=b[3],l=b[2];if(b[1]){if(l){if(l[1])return[0,1,[0,0,l[2],l[3],l[4],l[5]],t,s,[0,0,e,d,c,a]];if(e){if(e[1])return[0,1,[0,0,l,t,s,e[2]],e[3],e[4],[0,0,e[5],d,c,a]];if(a){if(a[1]){var
 f=a[5],u=a[4],v=a[3],m=a[2];return m?m[1]?[0,1,[0,0,b,d,c,m[2]],m[3],m[4],[0,0,m[5],v,u,f]]:f?f[1]?[0,1,[0,0,b,d,c,m],v,u,[0,0,f[2],f[3],f[4],f[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:f?f[1]?[0,1,[0,0,b,d,c,m],v,u,[0,0,f[2],f[3],f[4],f[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}if(a){if(a[1]){var
 g=a[5],w=a[4],x=a[3],n=a[2];return n?n[1]?[0,1,[0,0,b,d,c,n[2]],n[3],n[4],[0,0,n[5],x,w,g]]:g?g[1]?[0,1,[0,0,b,d,c,n],x,w,[0,0,g[2],g[3],g[4],g[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:g?g[1]?[0,1,[0,0,b,d,c,n],x,w,[0,0,g[2],g[3],g[4],g[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}if(e){if(e[1])return[0,1,[0,0,l,t,s,e[2]],e[3],e[4],[0,0,e[5],d,c,a]];if(a){if(a[1]){var
@@ -1430,22 +1431,22 @@ h=a[5],y=a[4],z=a[3],o=a[2];return o?o[1]?[0,1,[0,0,b,d,c,o[2]],o[3],o[4],[0,0,o
 i=a[5],A=a[4],B=a[3],p=a[2];return p?p[1]?[0,1,[0,0,b,d,c,p[2]],p[3],p[4],[0,0,p[5],B,A,i]]:i?i[1]?[0,1,[0,0,b,d,c,p],B,A,[0,0,i[2],i[3],i[4],i[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:i?i[1]?[0,1,[0,0,b,d,c,p],B,A,[0,0,i[2],i[3],i[4],i[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}if(a){if(a[1]){var
 j=a[5],C=a[4],D=a[3],q=a[2];return q?q[1]?[0,1,[0,0,b,d,c,q[2]],q[3],q[4],[0,0,q[5],D,C,j]]:j?j[1]?[0,1,[0,0,b,d,c,q],D,C,[0,0,j[2],j[3],j[4],j[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:j?j[1]?[0,1,[0,0,b,d,c,q],D,C,[0,0,j[2],j[3],j[4],j[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}if(a){if(a[1]){var
 k=a[5],E=a[4],F=a[3],r=a[2];return r?r[1]?[0,1,[0,0,b,d,c,r[2]],r[3],r[4],[0,0,r[5],F,E,k]]:k?k[1]?[0,1,[0,0,b,d,c,r],F,E,[0,0,k[2],k[3],k[4],k[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:k?k[1]?[0,1,[0,0,b,d,c,r],F,E,[0,0,k[2],k[3],k[4],k[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}function
-i7(b,c,a){if(a){var
-e=a[5],f=a[4],d=a[3],g=a[2],h=a[1]?function(d,c,b,a){return[0,1,d,c,b,a]}:uj;switch(mJ(b,d)){case
+jb(b,c,a){if(a){var
+e=a[5],f=a[4],d=a[3],g=a[2],h=a[1]?function(d,c,b,a){return[0,1,d,c,b,a]}:ux;switch(mS(b,d)){case
 0:return a;case
-1:return h(i7(b,c,g),d,f,e);default:return h(g,d,f,i7(b,c,e))}}return[0,1,0,b,c,0]}function
-mL(d,c,b){var
-a=i7(d,c,b),e=a?[0,0,a[2],a[3],a[4],a[5]]:a;return e}function
-cL(a){var
-b=bA(function(a,b){var
-c=mL(b,a[1],a[2]);return[0,[0,a[1]],c]},a,uk)[2];return function(c){var
-a=mK(c,b),d=a?a[1]:a;return d}}function
-i8(b,a){if(0===a[0])return 0;var
-c=a[3];return L(b,a[1])?0:F(b,c[1])?[1,i8(b,c)]:[0,i8(b,a[2])]}function
-mM(c,a){if(a){var
-b=a[3],d=b?F(c,b[2][1]):b;return d?[2,mM(c,b)]:i8(c,a[2])}return a}function
-dJ(k,d){var
-n=mK(k,d[1]);if(n)return[0,n[1],d];var
+1:return h(jb(b,c,g),d,f,e);default:return h(g,d,f,jb(b,c,e))}}return[0,1,0,b,c,0]}function
+mU(d,c,b){var
+a=jb(d,c,b),e=a?[0,0,a[2],a[3],a[4],a[5]]:a;return e}function
+cP(a){var
+b=bD(function(a,b){var
+c=mU(b,a[1],a[2]);return[0,[0,a[1]],c]},a,uy)[2];return function(c){var
+a=mT(c,b),d=a?a[1]:a;return d}}function
+jc(b,a){if(0===a[0])return 0;var
+c=a[3];return L(b,a[1])?0:F(b,c[1])?[1,jc(b,c)]:[0,jc(b,a[2])]}function
+mV(c,a){if(a){var
+b=a[3],d=b?F(c,b[2][1]):b;return d?[2,mV(c,b)]:jc(c,a[2])}return a}function
+dO(k,d){var
+n=mT(k,d[1]);if(n)return[0,n[1],d];var
 a=k[1],e=0;switch(a[0]){case
 0:var
 u=a[1],f=function(a){return[0,u]},c=d;break;case
@@ -1467,41 +1468,41 @@ M=function(b,a){return[7,b,a]},j=M,i=a[2],g=a[1];e=1;break;case
 N=function(a){return[8,a]},m=N,l=a[1];e=2;break;case
 9:var
 O=function(a){return[9,a]},m=O,l=a[1];e=2;break;default:var
-P=a[1],r=dJ(a[2],d),Q=r[1],s=dJ(a[3],r[2]),R=s[1],t=dJ(a[4],s[2]),S=t[1],T=function(a){var
+P=a[1],r=dO(a[2],d),Q=r[1],s=dO(a[3],r[2]),R=s[1],t=dO(a[4],s[2]),S=t[1],T=function(a){var
 b=h(a,S),c=h(a,R);return[10,P,h(a,Q),c,b]},f=T,c=t[2]}switch(e){case
 1:var
-o=dJ(g,d),D=o[1],p=dJ(i,o[2]),E=p[1],F=function(a){var
+o=dO(g,d),D=o[1],p=dO(i,o[2]),E=p[1],F=function(a){var
 b=h(a,E);return j(h(a,D),b)},f=F,c=p[2];break;case
 2:var
-q=dJ(l,d),J=q[1],K=function(a){return m(h(a,J))},f=K,c=q[2];break}var
-v=c[4],w=[0,f(function(a){return mM(a,c[2])}),v],x=G(c[3],b),y=ey(c[3],c[2]),z=[0,mL(k,c[3],c[1]),y,x,w];return[0,c[3],z]}function
-c7(a){var
-b=0,c=[0,0,0,d,0];return eu(bA(function(b,a){return dJ(a,b)[2]},a,c)[4],b)}function
-gT(a){return aq(function(b,a){return G(bK(b),a)},d,a)}function
-cM(a,c,b){var
-d=gT(b),e=iU(c[2],G(a[2],d));return[0,a,[0,bs(c[1],aQ(a[1],d)),e],b]}function
-aa(a){return[0,a,a,0]}function
-ck(b,a){var
+q=dO(l,d),J=q[1],K=function(a){return m(h(a,J))},f=K,c=q[2];break}var
+v=c[4],w=[0,f(function(a){return mV(a,c[2])}),v],x=G(c[3],b),y=eF(c[3],c[2]),z=[0,mU(k,c[3],c[1]),y,x,w];return[0,c[3],z]}function
+db(a){var
+b=0,c=[0,0,0,d,0];return eB(bD(function(b,a){return dO(a,b)[2]},a,c)[4],b)}function
+g1(a){return aq(function(b,a){return G(bL(b),a)},d,a)}function
+cQ(a,c,b){var
+d=g1(b),e=i0(c[2],G(a[2],d));return[0,a,[0,bv(c[1],aR(a[1],d)),e],b]}function
+ad(a){return[0,a,a,0]}function
+cm(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=aT(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return cM(A(b[1],a[1]),g,f)}function
-bB(b,a){var
-c=a[3],d=b[3],e=aT(function(a){return a},$,C,d,c),f=C(b[2],a[2]);return cM(C(b[1],a[1]),f,e)}function
-fq(a){var
+f=aU(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return cQ(A(b[1],a[1]),g,f)}function
+bf(b,a){var
+c=a[3],d=b[3],e=aU(function(a){return a},$,C,d,c),f=C(b[2],a[2]);return cQ(C(b[1],a[1]),f,e)}function
+dP(a){var
 b=e($,a[3]),c=$(a[2]);return[0,$(a[1]),c,b]}function
-aU(a,c,b){var
+aG(a,c,b){var
 d=A(b[2],b[1]),e=A(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=t(a,e,b);return ax(A(t(a,d,c),f))}function
-i(b){return ax(t(a,e,b))}var
-j=aT(function(b){return ax(t(a,d,b))},i,h,g,f),k=t(a,c[2],b[2]);return cM(t(a,c[1],b[1]),k,j)}function
-fr(b,a){var
-c=a[3],d=A(a[2],a[1]),f=e(function(a){return t(b,d,a)},c),g=S(b,a[2]);return cM(S(b,a[1]),g,f)}function
-i9(a,b){var
-c=cg(a,b[1]);if(c){var
-g=c[1],d=cg(a,b[2]);if(d){var
-h=d[1],f=b0(a,A(h,g));if(f)var
-l=b[3],m=f[1],i=[0,cM(g,h,e(function(b){return t(a,m,b)},l))];else
+f=t(a,e,b);return au(A(t(a,d,c),f))}function
+i(b){return au(t(a,e,b))}var
+j=aU(function(b){return au(t(a,d,b))},i,h,g,f),k=t(a,c[2],b[2]);return cQ(t(a,c[1],b[1]),k,j)}function
+eG(b,a){var
+c=a[3],d=A(a[2],a[1]),f=e(function(a){return t(b,d,a)},c),g=S(b,a[2]);return cQ(S(b,a[1]),g,f)}function
+jd(a,b){var
+c=ck(a,b[1]);if(c){var
+g=c[1],d=ck(a,b[2]);if(d){var
+h=d[1],f=b2(a,A(h,g));if(f)var
+l=b[3],m=f[1],i=[0,cQ(g,h,e(function(b){return t(a,m,b)},l))];else
 var
 i=f;var
 j=i}else
@@ -1510,529 +1511,529 @@ j=d;var
 k=j}else
 var
 k=c;return k}function
-ez(a,c,b){var
-d=b0(a,b[1]);if(d){var
-f=b0(a,b[2]);if(f)var
-h=f[1],g=t(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return C(c,t(a,g,b))},n=function(b){return $(t(a,g,b))},o=aT(function(a){return a},n,m,l,k),p=e(function(b){return t(a,h,b)},o),i=[0,cM(g,t(a,c[2],h),p)];else
+eH(a,c,b){var
+d=b2(a,b[1]);if(d){var
+f=b2(a,b[2]);if(f)var
+h=f[1],g=t(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return C(c,t(a,g,b))},n=function(b){return $(t(a,g,b))},o=aU(function(a){return a},n,m,l,k),p=e(function(b){return t(a,h,b)},o),i=[0,cQ(g,t(a,c[2],h),p)];else
 var
 i=f;var
 j=i}else
 var
 j=d;return j}function
-c8(b,a){return a?h(b,a[1]):a}function
-gU(a){var
-b=e(ax,a[3]),c=ax(A(a[2],a[1]));return cM(a[1],c,b)}function
-mN(a,k,j,r,c){var
-l=gU(k),m=gU(j),g=gU(c[1]),h=gU(c[2]),s=aU(a,l,h),u=bB(aU(a,m,g),s),i=ez(a,aa(J(a,b)),u);if(i)var
-f=i[1],n=aU(a,bB(l,g),f),o=aU(a,bB(m,h),f),d=function(c,b){return aU(a,c,aa(b))},v=j[3],w=k[3],x=function(b,a){var
-c=d(o,a);return ck(d(n,b),c)},y=function(a){return d(o,a)},z=aT(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return bB(b,d(f,ax(a)))[2]},C=function(a){return fq(d(f,ax(a)))[2]},p=aT(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=cM(c[2][1],c[2][2],E),G=$(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,cM(c[1][1],c[1][2],H),F]];else
+dc(b,a){return a?h(b,a[1]):a}function
+g2(a){var
+b=e(au,a[3]),c=au(A(a[2],a[1]));return cQ(a[1],c,b)}function
+mW(a,k,j,r,c){var
+l=g2(k),m=g2(j),g=g2(c[1]),h=g2(c[2]),s=aG(a,l,h),u=bf(aG(a,m,g),s),i=eH(a,ad(J(a,b)),u);if(i)var
+f=i[1],n=aG(a,bf(l,g),f),o=aG(a,bf(m,h),f),d=function(c,b){return aG(a,c,ad(b))},v=j[3],w=k[3],x=function(b,a){var
+c=d(o,a);return cm(d(n,b),c)},y=function(a){return d(o,a)},z=aU(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return bf(b,d(f,au(a)))[2]},C=function(a){return dP(d(f,au(a)))[2]},p=aU(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=cQ(c[2][1],c[2][2],E),G=$(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,cQ(c[1][1],c[1][2],H),F]];else
 var
 q=i;return q}function
-mO(a,e,d,k){var
-p=fr(a,d),f=ck(fr(a,e),p),g=bB(ck(f,aa(J(a,b))),k),l=aU(a,aa(J(a,c(2,b))),f),q=fr(a,g),h=i9(a,bB(aU(a,aa(J(a,c(2,c(2,b)))),f),q));if(h){var
-m=h[1],r=aU(a,m,d),i=ez(a,ck(aU(a,g,e),r),l);if(i)var
-s=aU(a,m,e),j=ez(a,bB(aU(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
+je(a,e,d,k){var
+p=eG(a,d),f=cm(eG(a,e),p),g=bf(cm(f,ad(J(a,b))),k),l=aG(a,ad(J(a,c(2,b))),f),q=eG(a,g),h=jd(a,bf(aG(a,ad(J(a,c(2,c(2,b)))),f),q));if(h){var
+m=h[1],r=aG(a,m,d),i=eH(a,cm(aG(a,g,e),r),l);if(i)var
+s=aG(a,m,e),j=eH(a,bf(aG(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
 n=i;var
 o=n}else
 var
 o=h;var
-u=c8(function(b){return mN(a,e,d,k,b)},o);return c8(function(b){return mN(a,e,d,k,b)},u)}function
-cN(d,b,a){if(b){if(a)return as(d,b[1],a[1]);var
+u=dc(function(b){return mW(a,e,d,k,b)},o);return dc(function(b){return mW(a,e,d,k,b)},u)}function
+cn(d,b,a){if(b){if(a)return as(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-bC(b,j,i){var
-f=aa(u);return function(a){switch(a[0]){case
-0:return[0,s(a[1],j,f)];case
-1:return[0,s(a[1],i,f)];case
-2:return[0,aa(J(b,a[1]))];case
+b4(b,j,i){var
+f=ad(u);return function(a){switch(a[0]){case
+0:return[0,r(a[1],j,f)];case
+1:return[0,r(a[1],i,f)];case
+2:return[0,ad(J(b,a[1]))];case
 3:var
-k=a[2],l=a[1];return cN(function(b,a){return[0,ck(b,a)]},l,k);case
+k=a[2],l=a[1];return cn(function(b,a){return[0,cm(b,a)]},l,k);case
 4:var
-m=a[2],n=a[1];return cN(function(b,a){return[0,bB(b,a)]},n,m);case
+m=a[2],n=a[1];return cn(function(b,a){return[0,bf(b,a)]},n,m);case
 5:var
-o=a[1];return c8(function(a){return[0,fq(a)]},o);case
+o=a[1];return dc(function(a){return[0,dP(a)]},o);case
 6:var
-p=a[2],q=a[1];return cN(function(c,a){return[0,aU(b,c,a)]},q,p);case
+p=a[2],q=a[1];return cn(function(c,a){return[0,aG(b,c,a)]},q,p);case
 7:var
-r=a[2],t=a[1];return cN(function(a,c){return ez(b,a,c)},t,r);case
+s=a[2],t=a[1];return cn(function(a,c){return eH(b,a,c)},t,s);case
 8:var
-u=a[1];return c8(function(a){return[0,fr(b,a)]},u);case
+u=a[1];return dc(function(a){return[0,eG(b,a)]},u);case
 9:var
-v=a[1];return c8(function(a){return i9(b,a)},v);default:var
+v=a[1];return dc(function(a){return jd(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-w=mO(b,c[1],d[1],e[1]),x=a[1]?aH:aA;return z(x,w)}var
+w=je(b,c[1],d[1],e[1]),y=a[1]?aJ:at;return x(y,w)}var
 g=e}else
 var
 g=d;var
 h=g}else
 var
 h=c;return h}}}function
-dK(c){var
+dQ(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 0;case
 1:return 1;case
 6:var
 a=a[1];continue;default:var
-b=dK(a[1]);if(b)return b;var
+b=dQ(a[1]);if(b)return b;var
 a=a[2];continue}}function
-cl(r,q){var
+co(r,q){var
 b=r,a=q;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=L(b[1],a[1]);return c?gI(b[2],a[2]):c}return 0;case
+c=L(b[1],a[1]);return c?gQ(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=n(b[1],a[1]),i=h?L(e[1],g[1]):h,j=i?gI(e[2],g[2]):i,k=j?L(d[1],f[1]):j;return k?gI(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=n(b[1],a[1]),i=h?L(e[1],g[1]):h,j=i?gQ(e[2],g[2]):i,k=j?L(d[1],f[1]):j;return k?gQ(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
-l=cl(b[1],a[1]);if(l){var
+l=co(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 3:if(3===a[0]){var
-m=cl(b[1],a[1]);if(m){var
+m=co(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 4:if(4===a[0]){var
-o=cl(b[1],a[1]);if(o){var
+o=co(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;case
 5:if(5===a[0]){var
-p=cl(b[1],a[1]);if(p){var
+p=co(b[1],a[1]);if(p){var
 b=b[2],a=a[2];continue}return p}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-fs(c,a){switch(a[0]){case
+fA(c,a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return 0;case
 2:var
-m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dG(b,a)]};break;case
+m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dL(b,a)]};break;case
 3:var
-o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,dH(b,a)]};break;case
+o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,dM(b,a)]};break;case
 4:var
 q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,a_(b,a)]};break;case
 5:var
-s=a[2],t=a[1],g=s,f=t,e=function(c,a){return ev(a,[0,d,b])?0:[0,gP(c,a)]};break;default:var
-k=fs(c,a[1]);return k?h(c,k[1]):k}var
-i=fs(c,f);if(i){var
-j=fs(c,g);if(j)return e(i[1],j[1]);var
+s=a[2],t=a[1],g=s,f=t,e=function(c,a){return eC(a,[0,d,b])?0:[0,gX(c,a)]};break;default:var
+k=fA(c,a[1]);return k?h(c,k[1]):k}var
+i=fA(c,f);if(i){var
+j=fA(c,g);if(j)return e(i[1],j[1]);var
 l=j}else
 var
 l=i;return l}function
-ul(a){return 0}function
-cO(a){return fs(ul,a)}function
-b1(a,c){switch(c[0]){case
-0:return[0,mA(a,c[1],c[2])];case
+uz(a){return 0}function
+cR(a){return fA(uz,a)}function
+b5(a,c){switch(c[0]){case
+0:return[0,mJ(a,c[1],c[2])];case
 1:return 0;case
 2:var
-g=b1(a,c[1]);if(g)var
-h=b1(a,c[2]),E=h?[0,A(g[1],h[1])]:h,r=E;else
+g=b5(a,c[1]);if(g)var
+h=b5(a,c[2]),E=h?[0,A(g[1],h[1])]:h,r=E;else
 var
 r=g;return r;case
 3:var
-i=b1(a,c[1]);if(i)var
-j=b1(a,c[2]),F=j?[0,C(i[1],j[1])]:j,s=F;else
+i=b5(a,c[1]);if(i)var
+j=b5(a,c[2]),F=j?[0,C(i[1],j[1])]:j,s=F;else
 var
 s=i;return s;case
 4:var
-k=b1(a,c[1]);if(k)var
-l=b1(a,c[2]),G=l?[0,t(a,k[1],l[1])]:l,v=G;else
+k=b5(a,c[1]);if(k)var
+l=b5(a,c[2]),G=l?[0,t(a,k[1],l[1])]:l,v=G;else
 var
 v=k;return v;case
 5:var
-m=b1(a,c[1]);if(m){var
-n=b1(a,c[2]);if(n)var
-o=b0(a,n[1]),H=o?[0,t(a,m[1],o[1])]:o,w=H;else
+m=b5(a,c[1]);if(m){var
+n=b5(a,c[2]);if(n)var
+o=b2(a,n[1]),H=o?[0,t(a,m[1],o[1])]:o,w=H;else
 var
 w=n;var
-x=w}else
+y=w}else
 var
-x=m;return x;default:var
-y=c[1],p=b1(a,y);if(p){var
-e=p[1];if(K(d,e[1]))return cg(a,e);var
-f=cO(y),J=f?I(bn([0,d,b],f[1])):f;if(J)return 0;if(K(d,e[2])){var
-B=cg(a,[0,e[2],e[2]]);return z(function(a){return[0,d,a[2]]},B)}var
+y=m;return y;default:var
+z=c[1],p=b5(a,z);if(p){var
+e=p[1];if(K(d,e[1]))return ck(a,e);var
+f=cR(z),J=f?I(bo([0,d,b],f[1])):f;if(J)return 0;if(K(d,e[2])){var
+B=ck(a,[0,e[2],e[2]]);return x(function(a){return[0,d,a[2]]},B)}var
 q=L(e[2],d),D=q?[0,u]:q;return D}return p}}function
-cP(b,a){return mA(b,a[1],a[2])}function
-mP(a,f,e,d){var
-h=[0,b,c(2,b)],i=[0,cP(a,a_(dH(d,e),h)),0],j=g(ac(u,f),i),k=cP(a,d)[2],l=[0,cP(a,e)[1],k],m=[0,b,c(2,b)];return[0,cP(a,a_(dG(e,d),m)),l,j]}function
-eA(c,e,a){function
-b(a){return eA(c,e,a)}if(dK(a))switch(a[0]){case
+cS(b,a){return mJ(b,a[1],a[2])}function
+mX(a,f,e,d){var
+h=[0,b,c(2,b)],i=[0,cS(a,a_(dM(d,e),h)),0],j=g(ab(u,f),i),k=cS(a,d)[2],l=[0,cS(a,e)[1],k],m=[0,b,c(2,b)];return[0,cS(a,a_(dL(e,d),m)),l,j]}function
+eI(c,e,a){function
+b(a){return eI(c,e,a)}if(dQ(a))switch(a[0]){case
 0:return 0;case
-1:return gh(e,a[1],a[2],a[3]);case
+1:return fd(e,a[1],a[2],a[3]);case
 2:var
-g=b(a[2]),h=b(a[1]);return cN(function(b,a){return[0,ck(b,a)]},h,g);case
+g=b(a[2]),h=b(a[1]);return cn(function(b,a){return[0,cm(b,a)]},h,g);case
 3:var
-i=b(a[2]),j=b(a[1]);return cN(function(b,a){return[0,bB(b,a)]},j,i);case
+i=b(a[2]),j=b(a[1]);return cn(function(b,a){return[0,bf(b,a)]},j,i);case
 4:var
-f=a[2],d=a[1];if(cl(d,f)){var
-k=b(d);return c8(function(a){return[0,fr(c,a)]},k)}var
-l=b(f),m=b(d);return cN(function(b,a){return[0,aU(c,b,a)]},m,l);case
+f=a[2],d=a[1];if(co(d,f)){var
+k=b(d);return dc(function(a){return[0,eG(c,a)]},k)}var
+l=b(f),m=b(d);return cn(function(b,a){return[0,aG(c,b,a)]},m,l);case
 5:var
-n=b(a[2]),o=b(a[1]);return cN(function(a,b){return ez(c,a,b)},o,n);default:var
-p=b(a[1]);return c8(function(a){return i9(c,a)},p)}return z(aa,b1(c,a))}function
-aB(b,a){if(dK(a)){var
-c=eA(b,function(d,c,a){var
-e=aE(d,dL),f=e?bn(c,a):e,g=f?[0,mP(b,d,c,a)]:f;return g},a);return z(function(a){return a[2]},c)}return b1(b,a)}function
-i_(a){var
-e=bs(R(a),d);return et(G(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
-mQ(a){return iZ(G(i_(a),a))}function
-mR(b,a){var
-c=mQ(b),d=R(c4(R(a[2]),c)),e=mQ(b);return[0,c4(a[1],e),d]}function
-c9(c,a,b){var
-d=aB(G(c,i_(a)),b);return z(function(b){return mR(a,b)},d)}function
+n=b(a[2]),o=b(a[1]);return cn(function(a,b){return eH(c,a,b)},o,n);default:var
+p=b(a[1]);return dc(function(a){return jd(c,a)},p)}return x(ad,b5(c,a))}function
+aC(b,a){if(dQ(a)){var
+c=eI(b,function(d,c,a){var
+e=aF(d,dR),f=e?bo(c,a):e,g=f?[0,mX(b,d,c,a)]:f;return g},a);return x(function(a){return a[2]},c)}return b5(b,a)}function
+jf(a){var
+e=bv(R(a),d);return eA(G(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
+mY(a){return i5(G(jf(a),a))}function
+mZ(b,a){var
+c=mY(b),d=R(c9(R(a[2]),c)),e=mY(b);return[0,c9(a[1],e),d]}function
+dd(c,a,b){var
+d=aC(G(c,jf(a)),b);return x(function(b){return mZ(a,b)},d)}function
 ar(d,a){var
-b=c9(d,a[2],a[1][1]);if(b)var
-c=c9(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+b=dd(d,a[2],a[1][1]);if(b)var
+c=dd(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-mS(b,a){var
-c=R(c4(R(a[2]),b));return[0,c4(a[1],b),c]}function
-gV(b,a){var
-c=gQ(b[2],a);return[0,cG(b[1],a),c]}function
-mT(h,g,d,b){var
-e=b[2],f=ml(d),i=c(2,f),j=D(mh(f),i),a=gV(t(h,b[1],g),j),k=mf(d)?C(e,a):A(e,a);return[0,a,k]}function
-mU(a,d,c){if(c){var
-e=c[1];return mT(a,d,e,mU(a,d,e))}var
+m0(b,a){var
+c=R(c9(R(a[2]),b));return[0,c9(a[1],b),c]}function
+g3(b,a){var
+c=gY(b[2],a);return[0,cK(b[1],a),c]}function
+m1(h,g,d,b){var
+e=b[2],f=mu(d),i=c(2,f),j=D(mq(f),i),a=g3(t(h,b[1],g),j),k=mo(d)?C(e,a):A(e,a);return[0,a,k]}function
+m2(a,d,c){if(c){var
+e=c[1];return m1(a,d,e,m2(a,d,e))}var
 f=J(a,b);return[0,J(a,b),f]}function
-mV(e,g){var
-o=cI(e),p=D(c(2,c(2,b)),o),j=F(g[2],p);if(j){var
-n=fm(e),i=um[1],d=n,f=0,a=i;for(;;){if(d){var
+m3(e,g){var
+o=cM(e),p=D(c(2,c(2,b)),o),j=F(g[2],p);if(j){var
+n=fw(e),i=uA[1],d=n,f=0,a=i;for(;;){if(d){var
 h=d[1];if(a){var
 d=h,a=a[1];continue}var
 d=h,f=[0,f],a=i;continue}var
-k=N(me(up,N(un,f)),uo),l=mU(e,g,k),q=mT(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
+k=N(mn(uD,N(uB,f)),uC),l=m2(e,g,k),q=m1(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
 var
 m=j;return m}function
-mW(i){function
+m4(i){function
 a(h){var
-m=cG(cI(i),h),g=fm(i),f=m,e=d,a=b;for(;;){if(g){var
-j=G(a,c(2,b)),k=G(e,cG(f,a)),l=R(cG(f,D(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(q(c(2,q(c(2,q(c(2,q(c(2,c(2,q(c(2,q(c(2,b)))))))))))))),f=D(c(2,c(2,b)),e),g=a(q(c(2,c(2,b))));return aQ(D(c(2,c(2,c(2,c(2,b)))),g),f)}function
-mX(e,a){var
+m=cK(cM(i),h),g=fw(i),f=m,e=d,a=b;for(;;){if(g){var
+j=G(a,c(2,b)),k=G(e,cK(f,a)),l=R(cK(f,D(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(q(c(2,q(c(2,q(c(2,q(c(2,c(2,q(c(2,q(c(2,b)))))))))))))),f=D(c(2,c(2,b)),e),g=a(q(c(2,c(2,b))));return aR(D(c(2,c(2,c(2,c(2,b)))),g),f)}function
+m5(e,a){var
 f=F(d,a);if(f){var
-g=c(2,c(2,b));return mV(e,gV(S(e,[0,a,a]),g))}return f}function
-mY(a){var
-m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aQ(mW(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=G(mW(a),n),e=mX(a,g);if(e){var
-f=mX(a,h);if(f)var
+g=c(2,c(2,b));return m3(e,g3(S(e,[0,a,a]),g))}return f}function
+m6(a){var
+m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aR(m4(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=G(m4(a),n),e=m5(a,g);if(e){var
+f=m5(a,h);if(f)var
 i=K(d,e[1][1]),j=i?K(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
-mZ(a,d){var
+m7(a,d){var
 c=S(a,d),e=J(a,b);return C(A(c,c),e)}function
-c_(f,j){var
-e=aB(G(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
-k=e[1],a=G(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=mY(a);if(d)var
-h=c(2,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))))),i=mV(a,S(a,gV(t(a,k,d[1]),h))),g=z(function(b){return mZ(a,mZ(a,b))},i);else
+de(f,j){var
+e=aC(G(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
+k=e[1],a=G(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=m6(a);if(d)var
+h=c(2,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))))),i=m3(a,S(a,g3(t(a,k,d[1]),h))),g=x(function(b){return m7(a,m7(a,b))},i);else
 var
 g=d;var
-l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return z(function(a){return mS(l,a)},g)}return e}function
-i$(a,d){var
-e=mY(G(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return z(function(e){var
-f=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))));return gV(t(a,d,mS(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
-gW(d,a){return c_(d,[3,a,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])}function
+l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return x(function(a){return m0(l,a)},g)}return e}function
+jg(a,d){var
+e=m6(G(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return x(function(e){var
+f=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))));return g3(t(a,d,m0(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
+g4(d,a){return de(d,[3,a,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])}function
 i(i,e,c){var
-f=cO(c);if(f){var
-g=f[1];return e?I(bn(g,[0,d,b])):bn([0,d,b],g)}var
-a=aB(i,c);if(a){var
+f=cR(c);if(f){var
+g=f[1];return e?I(bo(g,[0,d,b])):bo([0,d,b],g)}var
+a=aC(i,c);if(a){var
 h=a[1];return e?K(d,h[1]):F(d,h[1])}return a}function
-m0(c,b){var
-a=aB(c,b),d=a?1:a;return d}function
-bD(c,a,b){var
-d=cl(a,b),e=d?m0(c,a):d;return e?e:i(c,0,[3,b,a])}function
-uq(c){var
-a=dI(c),g=et(gN(a[2])),b=[0,gN(a[1]),g],e=K(d,a[1]),f=e?ev(a_(b,b),c):e,h=f?[0,b]:f;return h}function
-m1(a){if(a){var
-e=a[2],c=a[1];if(ev(bJ([0,d,b],c),[0,d,b])){var
-g=m1(e);return z(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
+m8(c,b){var
+a=aC(c,b),d=a?1:a;return d}function
+bE(c,a,b){var
+d=co(a,b),e=d?m8(c,a):d;return e?e:i(c,0,[3,b,a])}function
+uE(c){var
+a=dN(c),g=eA(gV(a[2])),b=[0,gV(a[1]),g],e=K(d,a[1]),f=e?eC(a_(b,b),c):e,h=f?[0,b]:f;return h}function
+m9(a){if(a){var
+e=a[2],c=a[1];if(eC(bK([0,d,b],c),[0,d,b])){var
+g=m9(e);return x(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
 f=[0,[0,c,e]]}else
 var
 f=a;return f}function
-m2(c,a){var
-e=V(c,a),f=[0,d,b];return aq(function(a,b){return dI(dG(a_(a[1],a[2]),b))},f,e)}function
-m3(c,j){if(c){var
-f=c[1],g=m1(j);if(g){var
+m_(c,a){var
+e=V(c,a),f=[0,d,b];return aq(function(a,b){return dN(dL(a_(a[1],a[2]),b))},f,e)}function
+m$(c,j){if(c){var
+f=c[1],g=m9(j);if(g){var
 h=g[1],a=h[1],k=function(c){var
-f=bJ([0,d,b],a),g=gP(bJ([0,d,b],c),f),h=bz(a),i=V(bz(c),h);return e(function(a){var
-b=a_(g,a[2]);return dI(dH(a[1],b))},i)},l=m3(f,e(k,h[2]));return z(function(c){var
-e=bJ([0,d,b],a);return[0,dI(gP(gO(m2(bz(a),c)),e)),c]},l)}var
-i=[0,[0,[0,b,b],ac([0,d,b],f)]]}else
+f=bK([0,d,b],a),g=gX(bK([0,d,b],c),f),h=bC(a),i=V(bC(c),h);return e(function(a){var
+b=a_(g,a[2]);return dN(dM(a[1],b))},i)},l=m$(f,e(k,h[2]));return x(function(c){var
+e=bK([0,d,b],a);return[0,dN(gX(gW(m_(bC(a),c)),e)),c]},l)}var
+i=[0,[0,[0,b,b],ab([0,d,b],f)]]}else
 var
 i=c;return i}function
-m4(a){if(a){var
-b=fs(uq,a[1]);if(b)var
-c=m4(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+na(a){if(a){var
+b=fA(uE,a[1]);if(b)var
+c=na(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return ur}function
-m5(a){if(a){var
-b=m4(a[1]);if(b)var
-c=m5(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+d=b;return d}return uF}function
+nb(a){if(a){var
+b=na(a[1]);if(b)var
+c=nb(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return us}function
-m6(i,m){var
-a=m5(m);if(a){var
-j=a[1],c=m3(i,j);if(c){var
-e=c[1],g=n(f(e),i),h=g?al(function(a){return I(ev(a,[0,d,b]))},e):g;return h?l(function(a){return ev(m2(a,e),[0,d,b])},j):h}var
+d=b;return d}return uG}function
+nc(i,m){var
+a=nb(m);if(a){var
+j=a[1],c=m$(i,j);if(c){var
+e=c[1],g=n(f(e),i),h=g?aj(function(a){return I(eC(a,[0,d,b]))},e):g;return h?l(function(a){return eC(m_(a,e),[0,d,b])},j):h}var
 k=c}else
 var
 k=a;return k}function
-ut(a){return a}function
-uu(a){return a}function
-uv(a,b){return aT(uu,ut,A,a,b)}function
-uw(a){return a}function
-ux(a){return a}function
-a$(a,b){return aT(ux,uw,uv,a,b)}function
-ja(a,f,c,d){if(c){var
-h=c[2],i=J(a,b),g=ex(c[1],i,f);if(d){var
-j=ja(a,f,h,d[2]),k=d[1],l=function(c,b){return C(c,t(a,g,b))},m=function(b){return $(t(a,g,b))};return[0,aT(function(a){return a},m,l,k,c),j]}var
-n=ja(a,f,h,0);return[0,e(function(b){return $(t(a,g,b))},c),n]}return d}function
-gX(h,a){if(a){var
+uH(a){return a}function
+uI(a){return a}function
+uJ(a,b){return aU(uI,uH,A,a,b)}function
+uK(a){return a}function
+uL(a){return a}function
+a$(a,b){return aU(uL,uK,uJ,a,b)}function
+jh(a,f,c,d){if(c){var
+h=c[2],i=J(a,b),g=eE(c[1],i,f);if(d){var
+j=jh(a,f,h,d[2]),k=d[1],l=function(c,b){return C(c,t(a,g,b))},m=function(b){return $(t(a,g,b))};return[0,aU(function(a){return a},m,l,k,c),j]}var
+n=jh(a,f,h,0);return[0,e(function(b){return $(t(a,g,b))},c),n]}return d}function
+g5(h,a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=K(d,c[1]),i=e?[0,ja(h,c,b[2],a[2])]:e,f=i;else
+c=b[1],e=K(d,c[1]),i=e?[0,jh(h,c,b[2],a[2])]:e,f=i;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-m7(g,f,e){var
+nd(g,f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=gX(g,b);if(c){var
+c=g5(g,b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-m8(d,b,a){if(b)if(a)var
-e=a[1],f=m8(d,b[2],a[2]),g=cE(d,b[1])?ch(e):cJ(e),c=[0,g,f];else
+ne(d,b,a){if(b)if(a)var
+e=a[1],f=ne(d,b[2],a[2]),g=cI(d,b[1])?cl(e):cN(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-m9(a,b){if(a)if(b)var
-d=m9(a[2],b[2]),c=[0,m8(a[1],a,b[1]),d];else
+nf(a,b){if(a)if(b)var
+d=nf(a[2],b[2]),c=[0,ne(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
 ba(a){if(a){var
-b=a[1],c=ba(b),d=e(function(a){return[0,1,a]},c),f=ba(b);return g(e(function(a){return[0,0,a]},f),d)}return uy}function
-eB(c,a){var
-b=f(a);if(m7(c,b,a))return 1;var
-d=ba(aS(b));return l(function(d){return m7(c,b,m9([0,0,d],a))},d)}function
-ay(a){function
+b=a[1],c=ba(b),d=e(function(a){return[0,1,a]},c),f=ba(b);return g(e(function(a){return[0,0,a]},f),d)}return uM}function
+eJ(c,a){var
+b=f(a);if(nd(c,b,a))return 1;var
+d=ba(aT(b));return l(function(d){return nd(c,b,nf([0,0,d],a))},d)}function
+az(a){function
 b(b){var
 c=h(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
-aF(h,e){var
+aH(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
 d=b[1],f=b[2],g=c[1]?A(a,d):C(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-jb(c,b,a){var
-d=ba(c);return l(function(c){return h(a,h(ay(function(a){return aF(c,a)}),b))},d)}function
-jc(h,d,c){if(d)if(c)var
-i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aR(c,G(h,b),a)},k=jc(h,j,i),l=function(c,b){var
-d=a(b,e);return A(a(f,c),d)},m=function(b){return a(b,e)},n=aT(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,A(a(f,e),o),n],k];else
+ji(c,b,a){var
+d=ba(c);return l(function(c){return h(a,h(az(function(a){return aH(c,a)}),b))},d)}function
+jj(h,d,c){if(d)if(c)var
+i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aS(c,G(h,b),a)},k=jj(h,j,i),l=function(c,b){var
+d=a(b,e);return A(a(f,c),d)},m=function(b){return a(b,e)},n=aU(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,A(a(f,e),o),n],k];else
 var
 g=c;else
 var
 g=d;return g}function
-eC(b,d,a,c){function
+eK(b,d,a,c){function
 e(c,d){var
-e=aR(d,b,a);return C(A(c,c),e)}function
-f(c){return $(aR(c,b,a))}return aT(function(a){return A(a,a)},f,e,d,c)}function
-gY(d,i,h,g){var
+e=aS(d,b,a);return C(A(c,c),e)}function
+f(c){return $(aS(c,b,a))}return aU(function(a){return A(a,a)},f,e,d,c)}function
+g6(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=cJ(e[2]),k=a$(a,jc(d,f,eC(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-jd(b,a){return[0,[0,0,b],a]}function
-ft(i,b,c,h,g,a){function
+e=b[1],f=c[1],j=cN(e[2]),k=a$(a,jj(d,f,eK(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+jk(b,a){return[0,[0,0,b],a]}function
+fB(i,b,c,h,g,a){function
 d(a){if(a){var
-j=ac([0,$(a[1][2]),0],b),c=gY(h,g,a[2],j),d=n(f(c),b);if(d)return eB(i,c);var
+j=ab([0,$(a[1][2]),0],b),c=g6(h,g,a[2],j),d=n(f(c),b);if(d)return eJ(i,c);var
 e=d}else
 var
-e=a;return e}return jb(b,jd(c,a),d)}function
-gZ(g,f,e){var
+e=a;return e}return ji(b,jk(c,a),d)}function
+g7(g,f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],h=d[1],c=gX(g,[0,[0,ch(d[2]),h],b]);if(c){var
+d=a[1],h=d[1],c=g5(g,[0,[0,cl(d[2]),h],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-je(d,b,c,a){function
+jl(d,b,c,a){function
 e(a){if(a){var
-j=ac([0,a[1][2],0],b),c=gZ(d,a[2],j);if(c){var
-e=c[1],g=n(f(e),b);if(g)return eB(d,e);var
+j=ab([0,a[1][2],0],b),c=g7(d,a[2],j);if(c){var
+e=c[1],g=n(f(e),b);if(g)return eJ(d,e);var
 h=g}else
 var
 h=c;var
 i=h}else
 var
-i=a;return i}return jb(b,jd(c,a),e)}function
-m_(h,g,a,f,d,c){var
-i=[0,u,u,0],b=e(function(a){return[0,a[1],i]},c),j=a?a[1]:[0,u,u,0];return ft(h,g,j,f,d,b)}function
-jf(b,a){var
-c=ba(b);return l(function(b){return K(d,aF(b,a)[1])},c)}function
-g0(c,b,a){var
-d=a[3],f=e(function(a){return aR(c,b,a)},d),g=a[2];return[0,aR(c,b,a[1]),g,f]}function
-m$(a,b){var
-c=b[3],d=a[3],e=aT(function(a){return a},$,C,d,c),f=a[2];return[0,C(a[1],b[1]),f,e]}function
-bL(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+i=a;return i}return ji(b,jk(c,a),e)}function
+ng(h,g,a,f,d,c){var
+i=[0,u,u,0],b=e(function(a){return[0,a[1],i]},c),j=a?a[1]:[0,u,u,0];return fB(h,g,j,f,d,b)}function
+jm(b,a){var
+c=ba(b);return l(function(b){return K(d,aH(b,a)[1])},c)}function
+g8(c,b,a){var
+d=a[3],f=e(function(a){return aS(c,b,a)},d),g=a[2];return[0,aS(c,b,a[1]),g,f]}function
+nh(a,b){var
+c=b[3],d=a[3],e=aU(function(a){return a},$,C,d,c),f=a[2];return[0,C(a[1],b[1]),f,e]}function
+bM(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 af(c,b,a){var
 d=as(c,b[3],a[3]),e=as(c,b[2],a[2]);return[0,as(c,b[1],a[1]),e,d]}function
 a8(b,a){var
-c=r(b,a[3]),d=r(b,a[2]);return[0,r(b,a[1]),d,c]}function
-bo(b,a){var
+c=s(b,a[3]),d=s(b,a[2]);return[0,s(b,a[1]),d,c]}function
+bp(b,a){var
 c=ai(b[3],a),d=ai(b[2],a);return[0,ai(b[1],a),d,c]}function
-ab(b,a){var
-c=r(b[3],a[3]),d=r(b[2],a[2]);return B(B(r(b[1],a[1]),d),c)}function
-dM(a){return bo(a,aL(ab(a,a)))}function
-c$(a){var
-b=a[5];return b?b[1]:aL(a[2])}function
-g1(b,a){return b?a:bu(a)}function
-na(e,a,i,d,h){var
-f=ab(a,e),b=af(x,e,a8(f,a)),j=ab(b,b),g=x(W(d),j),c=g1(h,aL(g)),k=x(f,c),l=af(B,a,bo(b,c));return[0,af(B,b,a8(c,a)),g,l,k,[0,d],0,[0,i]]}function
-nb(a,e,d){var
-b=ab(a,a),c=aL(b),f=[0,e],g=z(function(b){return af(x,a,a8(ab(b,a),b))},d);return[0,a,b,bo(a,c),c,0,g,f]}function
-nc(c,a){var
-d=ab(a,c);return[0,a,m(b),a,d,0,0,0]}function
-fu(a){return e(function(a){var
-b=a[2];return[0,bL(a[1]),b]},a)}function
-nd(a){return e(function(a){var
-c=m(b);return[0,bL(a[3]),c]},a)}function
-ne(b,a){var
+aa(b,a){var
+c=s(b[3],a[3]),d=s(b[2],a[2]);return B(B(s(b[1],a[1]),d),c)}function
+dS(a){return bp(a,aM(aa(a,a)))}function
+df(a){var
+b=a[5];return b?b[1]:aM(a[2])}function
+g9(b,a){return b?a:bx(a)}function
+ni(e,a,i,d,h){var
+f=aa(a,e),b=af(z,e,a8(f,a)),j=aa(b,b),g=z(W(d),j),c=g9(h,aM(g)),k=z(f,c),l=af(B,a,bp(b,c));return[0,af(B,b,a8(c,a)),g,l,k,[0,d],0,[0,i]]}function
+nj(a,e,d){var
+b=aa(a,a),c=aM(b),f=[0,e],g=x(function(b){return af(z,a,a8(aa(b,a),b))},d);return[0,a,b,bp(a,c),c,0,g,f]}function
+nk(c,a){var
+d=aa(a,c);return[0,a,m(b),a,d,0,0,0]}function
+fC(a){return e(function(a){var
+b=a[2];return[0,bM(a[1]),b]},a)}function
+nl(a){return e(function(a){var
+c=m(b);return[0,bM(a[3]),c]},a)}function
+nm(b,a){var
 c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]}function
-nf(c,b,a){var
+nn(c,b,a){var
 d=as(c,b[3],a[3]),e=as(c,b[2],a[2]);return[0,as(c,b[1],a[1]),e,d]}function
-eD(d,a){var
-b=cg(d,[0,a[2],a[2]]);if(b){var
+eL(d,a){var
+b=ck(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-g2(a,n,f,m,e,k,j){var
-o=nf(bB,k,j),b=nf(function(b,c){return aU(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=ck(ck(ck(aa(J(a,d)),h),g),c),p=ba(n);return l(function(c){var
-b=ne(function(b){return S(a,aF(c,b))},e),h=b[3],j=b[2],k=b[1],l=t(a,m,eD(a,A(A(A(J(a,d),k),j),h))),g=C(aF(c,i),l),n=f?C(g,aF(c,f[1])):g;return K(d,n[1])},p)}function
-cm(a){return dF(G(a[1],a[2]),b)}function
-eE(a){var
-b=cm(a);return aQ(a[2],b)}function
-dO(c,b){if(b)var
-a=b[1],e=dO([0,c],b[2]),f=eE(a),h=[0,[0,eE(a),f],0],i=g(ac(u,c),h),j=cm(a),d=[0,[0,[0,cm(a),j],a,i],e];else
+g_(a,n,f,m,e,k,j){var
+o=nn(bf,k,j),b=nn(function(b,c){return aG(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=cm(cm(cm(ad(J(a,d)),h),g),c),p=ba(n);return l(function(c){var
+b=nm(function(b){return S(a,aH(c,b))},e),h=b[3],j=b[2],k=b[1],l=t(a,m,eL(a,A(A(A(J(a,d),k),j),h))),g=C(aH(c,i),l),n=f?C(g,aH(c,f[1])):g;return K(d,n[1])},p)}function
+cp(a){return dK(G(a[1],a[2]),b)}function
+eM(a){var
+b=cp(a);return aR(a[2],b)}function
+dU(c,b){if(b)var
+a=b[1],e=dU([0,c],b[2]),f=eM(a),h=[0,[0,eM(a),f],0],i=g(ab(u,c),h),j=cp(a),d=[0,[0,[0,cp(a),j],a,i],e];else
 var
 d=b;return d}function
-da(d,b){if(b){var
+dg(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=da(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,cm(a),f],c],h=cm(a);return[0,[0,[0,a[1],h],c],g]}return uz}function
-ng(d,c,a){if(c){if(a){var
-e=ng(d,c[2],a[2]);return A(aR(c[1],G(d,b),a[1]),e)}return u}return u}function
-dP(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return ng(f,a,b)},j=dP(f,h),k=e(function(a){var
+e=dg(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,cp(a),f],c],h=cp(a);return[0,[0,[0,a[1],h],c],g]}return uN}function
+no(d,c,a){if(c){if(a){var
+e=no(d,c[2],a[2]);return A(aS(c[1],G(d,b),a[1]),e)}return u}return u}function
+dV(f,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return no(f,a,b)},j=dV(f,h),k=e(function(a){var
 e=b(d,a[2]);return A(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,A(b(d,c),l),k],j];else
 var
 i=a;return i}function
-dQ(e,b,d,a){if(b)if(a)var
-f=b[1],g=dQ(e,b[2],d,a[2]),c=[0,[0,f,eC(e,a[1][1],d,f)],g];else
+dW(e,b,d,a){if(b)if(a)var
+f=b[1],g=dW(e,b[2],d,a[2]),c=[0,[0,f,eK(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-g3(f,d,c,b,a){if(a){var
+g$(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=g3(f,d[1],c,b,g);return[0,[0,C(u,b),0],i]}var
-j=e(function(a){return[0,C(u,b),0]},g),h=[0,[0,C($(t(f,c,cJ(a[1][2]))),b),0],j]}else
+i=g$(f,d[1],c,b,g);return[0,[0,C(u,b),0],i]}var
+j=e(function(a){return[0,C(u,b),0]},g),h=[0,[0,C($(t(f,c,cN(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-a0(d,c,a){var
-b=n(f(a),c);return b?eB(d,a):b}function
-g4(d,b,a){if(b)var
-c=b[1],f=g4([0,d],b[2],a),h=g(ac(u,d),[0,a,0]),e=[0,[0,c,[0,aQ(c[1],a[2]),G(c[2],a[2])],h],f];else
+a1(d,c,a){var
+b=n(f(a),c);return b?eJ(d,a):b}function
+ha(d,b,a){if(b)var
+c=b[1],f=ha([0,d],b[2],a),h=g(ab(u,d),[0,a,0]),e=[0,[0,c,[0,aR(c[1],a[2]),G(c[2],a[2])],h],f];else
 var
 e=b;return e}function
-nh(d){if(d){var
+np(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=nh(d[2]);return z(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=np(d[2]);return x(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return uA}function
-ni(d,c,b,a){return cJ(bA(function(e,a){var
-b=bK(aF(c,a[2]));return A(e,t(d,a[1],[0,b,b]))},a,b))}function
-nj(b,c,a){return c?aw(b,a):ao(b,a)}function
-nk(b,i,h,a){return eD(b,aq(function(k,j){var
+f=a;return f}return uO}function
+nq(d,c,b,a){return cN(bD(function(e,a){var
+b=bL(aH(c,a[2]));return A(e,t(d,a[1],[0,b,b]))},a,b))}function
+nr(b,c,a){return c?ay(b,a):ao(b,a)}function
+ns(b,i,h,a){return eL(b,aq(function(k,j){var
 p=e(function(b){var
-a=aI(0,i);return e(function(a){return bK(s(a,b[3],u))},a)},k);function
+a=aB(0,i);return e(function(a){return bL(r(a,b[3],u))},a)},k);function
 a(n,m){var
-o=nj(h,n,p),g=e(function(a){return nj(h,m,a)},o);function
-a(a){return aq(bs,d,a)}var
+o=nr(h,n,p),g=e(function(a){return nr(h,m,a)},o);function
+a(a){return aq(bv,d,a)}var
 i=0;function
 j(a){return a}function
 k(a){return a}var
-c=a(aq(function(a,b){return aT(k,j,mp,a,b)},i,g)),l=[0,c,c],f=a(e(function(a){return aq(mp,d,a)},g));return eD(b,t(b,[0,f,f],l))}var
+c=a(aq(function(a,b){return aU(k,j,my,a,b)},i,g)),l=[0,c,c],f=a(e(function(a){return aq(my,d,a)},g));return eL(b,t(b,[0,f,f],l))}var
 c=a(1,1),f=a(1,0),g=a(0,1);return A(j,S(b,A(A(A(a(0,0),g),f),c)))},u,a))}function
-nl(d,a,g,f){var
-h=aI(0,d);return e(function(d){var
-e=g?ae(a,d):aE(d,a);return e?b:cf(c(2,b),f)},h)}function
-nm(b,a){var
-c=V(b,a);return e(function(a){return aR(a[1],d,a[2])},c)}function
-nn(c,b,a){var
+nt(d,a,g,f){var
+h=aB(0,d);return e(function(d){var
+e=g?ae(a,d):aF(d,a);return e?b:cj(c(2,b),f)},h)}function
+nu(b,a){var
+c=V(b,a);return e(function(a){return aS(a[1],d,a[2])},c)}function
+nv(c,b,a){var
 d=[0,[0,a,0],0],f=V(c,b);return g(e(function(a){return g(a[1],[0,a[2],0])},f),d)}function
-no(g,e){var
+nw(g,e){var
 a=g,b=e;for(;;){if(b){if(a){var
 c=n(f(b[1]),a);if(c){var
 a=a[1],b=b[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-np(b,a){var
+nx(b,a){var
 c=V(b,a);return e(function(a){return a[1]?$(a[2]):a[2]},c)}function
-nq(a,f,b,d,c){var
-h=g4(a,ac(u,dE(f,a)),c),i=g(e(aa,aw(a,b)),h);return g(g4(0,ao(a,b),d),i)}function
-nr(a,e,c){var
+ny(a,f,b,d,c){var
+h=ha(a,ab(u,dJ(f,a)),c),i=g(e(ad,ay(a,b)),h);return g(ha(0,ao(a,b),d),i)}function
+nz(a,e,c){var
 f=t(a,e,c);return K(d,C(J(a,b),f)[1])}function
-jg(a){return z(function(a){return z(fq,a)},a)}function
-db(c,b,a){function
-d(a){return aU(c,b,a)}return z(function(a){return z(d,a)},a)}function
-jh(c,b,a){function
-d(a){return ez(c,a,b)}return z(function(a){return c8(d,a)},a)}function
-eF(b,a){var
-c=V(b,a);return e(function(c){var
-a=c[2],b=c[1];if(b){if(a){var
-d=a[1],e=b[1];return[0,cN(function(b,a){return[0,ck(b,a)]},e,d)]}return b}return a},c)}function
-g5(a){return aa(J(a,c(2,b)))}function
-ji(a,au,at,L,c){var
-av=ci(aA,c),f=h(bC(a,au,at),av);switch(c[0]){case
+eN(a){return x(function(a){return x(dP,a)},a)}function
+bq(c,b,a){function
+d(a){return aG(c,b,a)}return x(function(a){return x(d,a)},a)}function
+dX(c,b,a){function
+d(a){return eH(c,a,b)}return x(function(a){return dc(d,a)},a)}function
+br(b,a){if(b){if(a){var
+c=a[1],d=b[1];return[0,cn(function(b,a){return[0,cm(b,a)]},d,c)]}return b}return a}function
+eO(b,a){var
+c=V(b,a);return e(function(a){return br(a[1],a[2])},c)}function
+dh(a){return ad(J(a,c(2,b)))}function
+jn(a,av,au,L,c){var
+aw=b3(at,c),f=h(b4(a,av,au),aw);switch(c[0]){case
 1:var
 O=c[1],d=e(function(d){var
-c=n(O,d),e=c?[0,[0,aa(J(a,b))]]:c;return e},L);break;case
+c=n(O,d),e=c?[0,[0,ad(J(a,b))]]:c;return e},L);break;case
 3:var
-d=eF(c[1][2],c[2][2]);break;case
+d=eO(c[1][2],c[2][2]);break;case
 4:var
-P=e(jg,c[2][2]),d=eF(c[1][2],P);break;case
+P=e(eN,c[2][2]),d=eO(c[1][2],P);break;case
 5:var
-d=e(jg,c[1][2]);break;case
+d=e(eN,c[1][2]);break;case
 6:var
 x=c[2],y=c[1],g=y[1],u=0;if(g){var
 i=x[1];if(i)var
-Q=x[2],R=g[1],S=e(function(b){return db(a,R,b)},Q),T=y[2],U=i[1],d=eF(e(function(b){return db(a,U,b)},T),S);else{var
+Q=x[2],R=g[1],S=e(function(b){return bq(a,R,b)},Q),T=y[2],U=i[1],d=eO(e(function(b){return bq(a,U,b)},T),S);else{var
 z=i;u=1}}else{var
 z=g;u=1}if(u)var
 d=z;break;case
 7:var
 v=0;if(f){var
 A=c[2],j=A[1];if(j)var
-V=A[2],W=fq(f[1]),X=e(function(b){return db(a,W,b)},V),Y=eF(c[1][2],X),Z=j[1],d=e(function(b){return jh(a,Z,b)},Y);else{var
+V=A[2],W=dP(f[1]),X=e(function(b){return bq(a,W,b)},V),Y=eO(c[1][2],X),Z=j[1],d=e(function(b){return dX(a,Z,b)},Y);else{var
 B=j;v=1}}else{var
 B=f;v=1}if(v)var
 d=B;break;case
 8:var
 C=c[1],k=C[1];if(k)var
-_=C[2],$=k[1],ab=aU(a,g5(a),$),d=e(function(b){return db(a,ab,b)},_);else
+_=C[2],$=k[1],aa=aG(a,dh(a),$),d=e(function(b){return bq(a,aa,b)},_);else
 var
 d=k;break;case
 9:if(f)var
-ac=c[1][2],ad=f[1],ae=aU(a,g5(a),ad),d=e(function(b){return jh(a,ae,b)},ac);else
+ab=c[1][2],ac=f[1],ae=aG(a,dh(a),ac),d=e(function(b){return dX(a,ae,b)},ab);else
 var
 d=f;break;case
 10:var
 D=c[4],E=c[3],F=c[2],l=F[1],w=0;if(l){var
 m=l[1],o=E[1],M=0;if(o){var
 p=o[1],q=D[1],N=0;if(q){var
-r=mO(a,m,p,q[1]);if(r){var
-G=r[1],s=G[2],t=G[1],af=E[2],ag=bB(p,s),ah=e(function(b){return db(a,ag,b)},af),ai=F[2],aj=bB(m,t),ak=eF(e(function(b){return db(a,aj,b)},ai),ah),al=e(jg,D[2]),am=g5(a),an=eF(e(function(b){return db(a,am,b)},ak),al),ao=c[1]?t:fq(s),ap=e(function(b){return db(a,ao,b)},an),aq=aU(a,m,s),ar=bB(aU(a,p,t),aq),as=aU(a,g5(a),ar),d=e(function(b){return jh(a,as,b)},ap);M=1;N=1}else
+r=je(a,m,p,q[1]);if(r){var
+G=r[1],s=G[2],t=G[1],af=E[2],ag=bf(p,s),ah=e(function(b){return bq(a,ag,b)},af),ai=F[2],aj=bf(m,t),ak=eO(e(function(b){return bq(a,aj,b)},ai),ah),al=e(eN,D[2]),am=dh(a),an=eO(e(function(b){return bq(a,am,b)},ak),al),ao=c[1]?t:dP(s),ap=e(function(b){return bq(a,ao,b)},an),aq=aG(a,m,s),ar=bf(aG(a,p,t),aq),as=aG(a,dh(a),ar),d=e(function(b){return dX(a,as,b)},ap);M=1;N=1}else
 var
 H=r}else
 var
@@ -2044,155 +2045,195 @@ K=I;w=1}}else{var
 K=l;w=1}if(w)var
 d=K;break;default:var
 d=e(function(a){return 0},L)}return[0,f,d]}function
-jj(b,c,a){if(a)var
-f=a[1],g=jj(b,c,a[2]),d=[0,e(function(a){return $(t(b,t(b,c,f),a))},a),g];else
+jo(b,c,a){if(a)var
+f=a[1],g=jo(b,c,a[2]),d=[0,e(function(a){return $(t(b,t(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-jk(a){return l(function(a){var
+jp(a){return l(function(a){var
 b=L(a[1],d);return b?L(a[2],d):b},a)}function
-jl(c,b,a){var
+jq(c,b,a){var
 d=V(b,a);return aq(function(a,b){return A(t(c,a[1],a[2]),b)},u,d)}function
-jm(c,b,a){var
-d=bK(jl(c,a,b));return aq(function(b,a){return G(bK(b),a)},d,a)}function
-cn(a){return J(a,b)}function
-fv(a,i,c,v,u){var
+jr(c,b,a){var
+d=bL(jq(c,a,b));return aq(function(b,a){return G(bL(b),a)},d,a)}function
+cq(a){return J(a,b)}function
+fD(a,i,c,v,u){var
 f=v,e=u;for(;;){if(f){var
-j=f[1],n=0;if(!jk(c)&&!jk(j)){var
-h=jm(a,i,j),o=cn(a),p=jm(a,i,c),b=ex([0,jm(a,i,c),p],o,[0,h,h])[1],k=K(d,h),l=k?K(d,b):k;if(l)var
-q=ax(i1(a,[0,b,b])),r=function(b){return function(d,c){return C(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,a$(e,jj(a,q,aT(function(c){return function(b){return t(a,c,b)}}(s),$,r,j,c)))];else
+j=f[1],n=0;if(!jp(c)&&!jp(j)){var
+h=jr(a,i,j),o=cq(a),p=jr(a,i,c),b=eE([0,jr(a,i,c),p],o,[0,h,h])[1],k=K(d,h),l=k?K(d,b):k;if(l)var
+q=au(i7(a,[0,b,b])),r=function(b){return function(d,c){return C(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,a$(e,jo(a,q,aU(function(c){return function(b){return t(a,c,b)}}(s),$,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-ns(a){var
+nA(a){var
 b=a[2],c=e(function(a){return[0,a[1],u]},b);return[0,[0,a[1][1],u],c]}function
-jn(h,n,a,m,l,k){var
+js(h,n,a,m,l,k){var
 d=m,c=l,b=k;for(;;){if(d){if(c){var
-i=c[1],j=i[1],f=d[1],o=cJ(j[2]),p=a$(b,jc(a,f,eC(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(ax,eC(a,b[1],b[2],c))}}(f),q),g=fv(h,n,e(function(b){return aR(b,a,cn(h))},f),r,p);if(g){var
+i=c[1],j=i[1],f=d[1],o=cN(j[2]),p=a$(b,jj(a,f,eK(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(au,eK(a,b[1],b[2],c))}}(f),q),g=fD(h,n,e(function(b){return aS(b,a,cq(h))},f),r,p);if(g){var
 d=d[2],c=c[2],b=g[1];continue}return g}return[0,b]}return[0,b]}}function
-nt(a,j,r,q){var
+nB(a,j,r,q){var
 c=r,f=q;for(;;){if(c){var
-k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,ch(g),h],f];if(m){var
+k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,cl(g),h],f];if(m){var
 o=K(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,ax(a[2]),b]},m),t=e(function(a){return u},h),v=[0,cn(a),t],w=cn(a),b=fv(a,[0,$(ex(jl(a,h,j),w,g)),j],v,s,n);else
+b=a[1];return[0,au(a[2]),b]},m),t=e(function(a){return u},h),v=[0,cq(a),t],w=cq(a),b=fD(a,[0,$(eE(jq(a,h,j),w,g)),j],v,s,n);else
 var
 b=o}else
 var
 b=[0,n];if(b){var
-i=gX(a,b[1]);if(i){var
+i=g5(a,b[1]);if(i){var
 c=c[2],f=i[1];continue}var
 p=i}else
 var
 p=b;return p}return[0,f]}}function
-nu(c,b,a){var
-d=aI(0,a);return e(function(a){return n(a,b)?cn(c):u},d)}function
-nv(c,b,a){if(b){if(a){var
-d=nv(c,b[2],a[2]);return A(aR(b[1],c,a[1]),d)}return u}return u}function
-nw(a,j){switch(j){case
+nC(c,b,a){var
+d=aB(0,a);return e(function(a){return n(a,b)?cq(c):u},d)}function
+nD(c,b,a){if(b){if(a){var
+d=nD(c,b[2],a[2]);return A(aS(b[1],c,a[1]),d)}return u}return u}function
+nE(a,j){switch(j){case
 0:var
-d=aQ(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
+d=aR(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
-f=aQ(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-c=dF(G(a[1],a[2]),b),h=aQ(c,a[2]),i=aQ(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
-fw(d,c,a){if(a)var
-e=a[1],g=fw(d,[0,c],a[2]),b=z(aH,ms(function(a){return n(a[1],c)},d)),h=b?nw(e,b[1])[1]:e,f=[0,h,g];else
+f=aR(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
+c=dK(G(a[1],a[2]),b),h=aR(c,a[2]),i=aR(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+jt(d,c,a){if(a)var
+e=a[1],g=jt(d,[0,c],a[2]),b=x(aJ,mB(function(a){return n(a[1],c)},d)),h=b?nE(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}function
-g6(a,b){return e(function(a){var
-c=a[2];return nw(s(a[1],b,u),c)[2]},a)}function
-g7(i,b,f,a){function
-d(a){return aF(b,a[1])}var
-h=0,j=aa(u);function
+nF(a,b){return e(function(a){var
+c=a[2];return nE(r(a[1],b,u),c)[2]},a)}function
+hb(i,b,f,a){function
+d(a){return aH(b,a[1])}var
+h=0,j=ad(u);function
 c(f,d,a,b){if(a){var
-h=function(a){return aF(f,s(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(f,[0,d],a[2],b),n=a[1];return g(e(function(a){var
+h=function(a){return aH(f,r(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(f,[0,d],a[2],b),n=a[1];return g(e(function(a){var
 b=t(i,a,l);return[0,e(function(b){return t(i,a,b)},k),b]},n),m)}return a}var
 k=c(b,h,f,a),l=d(a[2]);return[0,[0,e(d,a[1]),l],k]}var
-uQ=aa(u);function
-nx(e,d,c){if(d){var
-f=s(e,c[2],uR),a=f?f[1]:[0,uQ];if(a)var
-b=nx([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+u4=ad(u);function
+nG(e,d,c){if(d){var
+f=r(e,c[2],u5),a=f?f[1]:[0,u4];if(a)var
+b=nG([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return uS}function
-ny(a,c,i,p,o,g,n){var
+g=a;return g}return u6}function
+hc(b,a){return aj(function(a){return n(b,a)},a)}function
+cT(d,b,a){if(b)if(a)var
+e=a[1],f=b[1],c=[0,cn(function(b,a){return[0,aG(d,b,a)]},f,e)];else
+var
+c=a;else
+var
+c=b;return c}function
+cr(b,a){return br(b,eN(a))}function
+hd(f,e,d,c,b){if(e)if(d)if(c)if(b)var
+g=e[1],h=hd(f,e[2],d[2],c[2],b[2]),a=[0,KX(f,g[1],g[2],d[1],c[1],b[1]),h];else
+var
+a=b;else
+var
+a=c;else
+var
+a=d;else
+var
+a=e;return a}function
+bN(b,a){return r(a,b[2],nH)}function
+nI(d,b,a,c){if(n(a,c)){var
+f=bN(b,a),e=function(a){return eG(d,a)};return x(function(a){return x(e,a)},f)}var
+g=bN(b,c);return cT(d,bN(b,a),g)}function
+nJ(b,a){return r(a,e(at,b),0)}function
+nK(a){if(a){var
+b=a[1],c=nK(a[2]);return g(e(function(a){return[0,b,a]},a),c)}return a}function
+ju(a,b){var
+c=aB(0,f(a));return nK(aZ(function(c){return hc(nJ(a,c),b)},c))}function
+nL(a){if(a){var
+d=a[1],b=d?d[1]:[0,ad(u)];if(b)var
+c=nL(a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+var
+e=b;return e}return u7}function
+jv(h,a,d,c){var
+b=nF(a,c),f=ju(a,d);return g(b,e(function(a){if(n(a[1],a[2])){var
+c=r(a[1],b,0);if(c)var
+d=c[1],f=[0,au(t(h,d,d)),0];else
+var
+f=c;return f}var
+g=r(a[1],b,0);return y(function(c){var
+d=r(a[2],b,0);return e(function(a){return t(h,c,a)},d)},g)},f))}function
+nM(a,c,i,p,o,g,n){var
 d=ba(c);return l(function(d){var
 f=h(n,d);if(f){var
-q=t(a,o,f[1]),j=C(J(a,b),q),r=i?C(j,aF(d,i[1])):j,k=function(b){function
-f(c){return t(a,b,aF(d,c))}var
-g=e(function(a){return e(f,a)},p);return a0(a,c,a$(ac([0,r,0],c),g))},l=k(ax(g));if(l)return k($(ax(g)));var
+q=t(a,o,f[1]),j=C(J(a,b),q),r=i?C(j,aH(d,i[1])):j,k=function(b){function
+f(c){return t(a,b,aH(d,c))}var
+g=e(function(a){return e(f,a)},p);return a1(a,c,a$(ab([0,r,0],c),g))},l=k(au(g));if(l)return k($(au(g)));var
 m=l}else
 var
 m=f;return m},d)}function
-nz(c,b,a){if(a){var
+nN(c,b,a){if(a){var
 d=a[2];if(c){var
-f=nz(c[1],b,d);return[0,a[1],f]}var
+f=nN(c[1],b,d);return[0,a[1],f]}var
 e=[0,b,d]}else
 var
 e=a;return e}function
-fx(a,g){var
-b=a6(function(e){var
-c=s(e,a,u),b=F(c[1],d),f=b?F(d,c[2]):b;return I(f)},g);if(b){if(b[2])return a;var
-f=b[1],c=s(f,a,u),e=K(d,c[1])?c[1]:c[2];return nz(f,[0,e,e],a)}return a}function
-nA(c,a){if(a)var
-b=a[2],f=nA(c,b),g=b?b[1]:e(t5,c),d=[0,[0,a[1],g],f];else
+fE(a,g){var
+b=aZ(function(e){var
+c=r(e,a,u),b=F(c[1],d),f=b?F(d,c[2]):b;return I(f)},g);if(b){if(b[2])return a;var
+f=b[1],c=r(f,a,u),e=K(d,c[1])?c[1]:c[2];return nN(f,[0,e,e],a)}return a}function
+nO(c,a){if(a)var
+b=a[2],f=nO(c,b),g=b?b[1]:e(uh,c),d=[0,[0,a[1],g],f];else
 var
 d=a;return d}function
-jo(a){return a?nA(a[1],a):a}function
-dc(c,d,b,a){if(d){var
+jw(a){return a?nO(a[1],a):a}function
+di(c,d,b,a){if(d){var
 e=d[1];if(a){var
-f=dc(c,e,b,a[2]);return[0,a[1],f]}return[0,c,dc(c,e,b,0)]}return a?[0,b,a[2]]:[0,b,0]}function
-g8(a,c,b){if(c)if(b)var
-g=b[2],e=b[1],h=c[2],d=c[1],i=g8(a,h,g),j=function(c,b){var
-f=t(a,e,b);return A(t(a,d,c),f)},k=function(b){return t(a,e,b)},l=aT(function(b){return t(a,d,b)},k,j,g,h),f=[0,[0,t(a,A(d,d),e),l],i];else
+f=di(c,e,b,a[2]);return[0,a[1],f]}return[0,c,di(c,e,b,0)]}return a?[0,b,a[2]]:[0,b,0]}function
+he(a,c,b){if(c)if(b)var
+g=b[2],e=b[1],h=c[2],d=c[1],i=he(a,h,g),j=function(c,b){var
+f=t(a,e,b);return A(t(a,d,c),f)},k=function(b){return t(a,e,b)},l=aU(function(b){return t(a,d,b)},k,j,g,h),f=[0,[0,t(a,A(d,d),e),l],i];else
 var
 f=b;else
 var
 f=c;return f}function
-dd(d,c,b,a){return dc(u,c,jl(d,a,b),a)}function
-jp(a,f,e,b,d,c){var
-g=aI(0,b);return aq(function(g,c){var
-h=dd(a,f,e,nu(a,g,b));return a$(c,jj(a,$(d),h))},c,g)}function
-jq(a,d,c,j,i,h,g,f){var
-k=dd(a,d,c,e(function(b){return J(a,D(h,b))},i));return a$(f,g8(a,dd(a,d,c,e(function(c){return aR(c,G(g,b),cn(a))},j)),k))}function
-jr(a,h,g,q,f,p,o,n){var
+dj(d,c,b,a){return di(u,c,jq(d,a,b),a)}function
+jx(a,f,e,b,d,c){var
+g=aB(0,b);return aq(function(g,c){var
+h=dj(a,f,e,nC(a,g,b));return a$(c,jo(a,$(d),h))},c,g)}function
+jy(a,d,c,j,i,h,g,f){var
+k=dj(a,d,c,e(function(b){return J(a,D(h,b))},i));return a$(f,he(a,dj(a,d,c,e(function(c){return aS(c,G(g,b),cq(a))},j)),k))}function
+jz(a,h,g,q,f,p,o,n){var
 d=p,c=o,b=n;for(;;){if(d){if(c){var
-k=c[1],l=k[1],i=d[1],m=dd(a,h,g,e(function(b){return aR(b,f,cn(a))},i)),r=cJ(l[2]),s=dd(a,h,g,eC(f,l[1],r,i)),t=a$(b,g8(a,e(ax,m),s)),u=k[2],j=fv(a,q,m,e(function(c){return function(b){return dd(a,h,g,e(ax,eC(f,b[1],b[2],c)))}}(i),u),t);if(j){var
+k=c[1],l=k[1],i=d[1],m=dj(a,h,g,e(function(b){return aS(b,f,cq(a))},i)),r=cN(l[2]),s=dj(a,h,g,eK(f,l[1],r,i)),t=a$(b,he(a,e(au,m),s)),u=k[2],j=fD(a,q,m,e(function(c){return function(b){return dj(a,h,g,e(au,eK(f,b[1],b[2],c)))}}(i),u),t);if(j){var
 d=d[2],c=c[2],b=j[1];continue}return j}return[0,b]}return[0,b]}}function
-nB(g,b,f,a){if(a)var
-c=a[2],d=a[1],h=s(b,c,u),e=[0,d,dc(u,b,A(t(g,f,d),h),c)];else
+nP(g,b,f,a){if(a)var
+c=a[2],d=a[1],h=r(b,c,u),e=[0,d,di(u,b,A(t(g,f,d),h),c)];else
 var
 e=a;return e}function
-nC(a,b,m,D,C,B){var
+nQ(a,b,m,D,C,B){var
 i=C,h=B;for(;;){if(i){var
-n=i[1],o=n[1],j=o[2],p=n[2],c=dd(a,b,m,o[1]);if(p){var
+n=i[1],o=n[1],j=o[2],p=n[2],c=dj(a,b,m,o[1]);if(p){var
 q=K(d,j[1]);if(q)var
-E=cn(a),f=ch($(ex(s(b,c,u),E,j))),k=ch(j),v=dc(u,b,f,0),w=s(b,c,u),x=a$(h,g8(a,v,dc(u,b,A(ax(t(a,f,k)),w),c))),y=s(b,c,u),z=[0,[0,k,dc(u,b,A(t(a,f,k),y),c)],x],F=e(function(e){return function(c){var
-d=dd(a,b,m,c[1]);return nB(a,b,e,[0,ax(c[2]),d])}}(f),p),G=e(function(a){return u},c),g=fv(a,[0,u,D],nB(a,b,f,[0,cn(a),G]),F,z);else
+E=cq(a),f=cl($(eE(r(b,c,u),E,j))),k=cl(j),v=di(u,b,f,0),w=r(b,c,u),x=a$(h,he(a,v,di(u,b,A(au(t(a,f,k)),w),c))),y=r(b,c,u),z=[0,[0,k,di(u,b,A(t(a,f,k),y),c)],x],F=e(function(e){return function(c){var
+d=dj(a,b,m,c[1]);return nP(a,b,e,[0,au(c[2]),d])}}(f),p),G=e(function(a){return u},c),g=fD(a,[0,u,D],nP(a,b,f,[0,cq(a),G]),F,z);else
 var
 g=q}else
 var
-g=[0,[0,[0,ch(j),c],h]];if(g){var
-l=gX(a,g[1]);if(l){var
+g=[0,[0,[0,cl(j),c],h]];if(g){var
+l=g5(a,g[1]);if(l){var
 i=i[2],h=l[1];continue}var
-r=l}else
+s=l}else
 var
-r=g;return r}return[0,h]}}function
-nD(a){if(a)var
+s=g;return s}return[0,h]}}function
+nR(a){if(a)var
 b=a[1],c=[0,b[1],[0,b[2],0]];else
 var
 c=a;return c}function
-js(f,d,c,b,a){var
-g=e(aa,c);return cj(0,bC(f,dO(0,a),g),b,d)}function
-ad(a){if(a){var
+jA(f,d,c,b,a){var
+g=e(ad,c);return c$(0,b4(f,dU(0,a),g),b,d)}function
+ac(a){if(a){var
 b=a[1];if(b)var
-c=ad(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=ac(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return uX}function
-fy(b,a){if(a){var
-h=a[1],n=h[1],c=ad(e(function(a){return s(a,b,0)},n));if(c){var
-f=s(h[2],b,0);if(f){var
-i=f[1],g=fy(b,a[2]);if(g)var
+d=b;return d}return va}function
+fF(b,a){if(a){var
+h=a[1],n=h[1],c=ac(e(function(a){return r(a,b,0)},n));if(c){var
+f=r(h[2],b,0);if(f){var
+i=f[1],g=fF(b,a[2]);if(g)var
 j=K(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
@@ -2201,79 +2242,79 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return uY}function
-cQ(d,c,b){var
-a=fy(d,c);return a?h(b,a[1]):a}function
-de(a,b){return l(function(c){var
-a=s(c,b,0),d=a?1:a;return d},a)}function
-g9(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aT(function(a){return a},f,A,e,d),h=a[2];return[0,A(a[1],c[1]),h,g]}return a}function
-jt(b,a){return b?m$(a,b[1]):a}function
-ju(h,g,b,f){var
-a=s(f,h,0);if(a){var
+m=c;return m}return vb}function
+cU(d,c,b){var
+a=fF(d,c);return a?h(b,a[1]):a}function
+dk(a,b){return l(function(c){var
+a=r(c,b,0),d=a?1:a;return d},a)}function
+hf(b,a){if(b){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aU(function(a){return a},f,A,e,d),h=a[2];return[0,A(a[1],c[1]),h,g]}return a}function
+jB(b,a){return b?nh(a,b[1]):a}function
+jC(h,g,b,f){var
+a=r(f,h,0);if(a){var
 c=a[1];if(b){var
-i=m$(c,b[1]),e=ba(g);return l(function(a){return F(d,aF(a,i)[1])},e)}return F(d,c[2][1])}return a}function
-jv(f,d,a){function
-c(a){return aR(a,d,J(f,b))}if(a){var
-g=e(c,a[2]);return[0,c(a[1]),u,g]}return aa(u)}function
-g_(b,a){var
-c=s(a[1],b,0);if(c){var
-d=s(a[2],b,0);if(d)var
-e=s(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
+i=nh(c,b[1]),e=ba(g);return l(function(a){return F(d,aH(a,i)[1])},e)}return F(d,c[2][1])}return a}function
+jD(f,d,a){function
+c(a){return aS(a,d,J(f,b))}if(a){var
+g=e(c,a[2]);return[0,c(a[1]),u,g]}return ad(u)}function
+hg(b,a){var
+c=r(a[1],b,0);if(c){var
+d=r(a[2],b,0);if(d)var
+e=r(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
 var
 f=d;var
 g=f}else
 var
 g=c;return g}function
-fz(b,a){return ad(e(function(a){return s(a,b,0)},a))}function
-eG(c,k,ab,E,i,h,j,g,a){switch(g[0]){case
+fG(b,a){return ac(e(function(a){return r(a,b,0)},a))}function
+eP(c,k,aa,E,i,h,j,g,a){switch(g[0]){case
 0:var
 s=g[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-ac=de(E,i);if(ac){var
-aH=a[2],aI=a[1],aJ=g9(j,aa(s));return cQ(i,k,function(a){return ft(c,h,aJ,aI,aH,a)})}return ac;case
+ab=dk(E,i);if(ab){var
+aG=a[2],aI=a[1],aJ=hf(j,ad(s));return cU(i,k,function(a){return fB(c,h,aJ,aI,aG,a)})}return ab;case
 1:var
-ae=de(E,i);if(ae){var
-aK=a[2],aL=a[1],aM=g9(j,aa(s));return cQ(i,ab,function(a){return ft(c,h,aM,aL,aK,a)})}return ae;case
+ae=dk(E,i);if(ae){var
+aK=a[2],aL=a[1],aM=hf(j,ad(s));return cU(i,aa,function(a){return fB(c,h,aM,aL,aK,a)})}return ae;case
 2:var
-af=de(E,i);if(af){var
+af=dk(E,i);if(af){var
 ag=L(s[1],d),ah=ag?L(s[2],d):ag;if(ah){var
-aN=a[2],aO=a[1];return cQ(i,k,function(a){return m_(c,h,j,aO,aN,a)})}var
+aN=a[2],aO=a[1];return cU(i,k,function(a){return ng(c,h,j,aO,aN,a)})}var
 ai=ah}else
 var
 ai=af;return ai}return 0;case
 1:var
 aj=g[1];if(typeof
 a==="number"){if(1===a){var
-aP=jt(j,aa(aj));return cQ(i,ab,function(a){return je(c,h,aP,a)})}if(!a){var
-aS=jt(j,aa(aj));return cQ(i,k,function(a){return je(c,h,aS,a)})}}return 0;case
+aP=jB(j,ad(aj));return cU(i,aa,function(a){return jl(c,h,aP,a)})}if(!a){var
+aQ=jB(j,ad(aj));return cU(i,k,function(a){return jl(c,h,aQ,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-ak=a[1],m=jv(c,ak,a[3]),al=g[1],aT=a[2];return cQ(i,k,function(d){var
-a=jf(h,m),b=a?ft(c,h,g9(j,m),ak,aT,d):a;if(b){var
-f=m[3],g=e(function(a){return t(c,al,a)},f),i=m[2];return je(c,h,jt(j,[0,t(c,al,m[1]),i,g]),d)}return b})}return 0;case
+ak=a[1],m=jD(c,ak,a[3]),al=g[1],aT=a[2];return cU(i,k,function(d){var
+a=jm(h,m),b=a?fB(c,h,hf(j,m),ak,aT,d):a;if(b){var
+f=m[3],g=e(function(a){return t(c,al,a)},f),i=m[2];return jl(c,h,jB(j,[0,t(c,al,m[1]),i,g]),d)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return ju(i,h,j,g[1]);return 0;case
+a==="number"&&!a)return jC(i,h,j,g[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-aU=a[2],aV=a[1],aW=g9(j,aa(g[2])),aX=function(a){return ft(c,h,aW,aV,aU,a)};return cQ(i,g[1],aX)}return 0;case
+aU=a[2],aV=a[1],aW=hf(j,ad(g[2])),aX=function(a){return fB(c,h,aW,aV,aU,a)};return cU(i,g[1],aX)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return ju(i,h,j,g[1]);case
-2:return ju(i,h,j,g[2])}return 0;case
+0:return jC(i,h,j,g[1]);case
+2:return jC(i,h,j,g[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-F=g_(i,g[1]);if(F){var
-H=g_(i,g[2]);if(H){var
-I=g_(i,g[3]);if(I){var
-K=g_(i,g[4]);if(K){var
+F=hg(i,g[1]);if(F){var
+H=hg(i,g[2]);if(H){var
+I=hg(i,g[3]);if(I){var
+K=hg(i,g[4]);if(K){var
 am=K[1],an=I[1],ao=H[1],ap=F[1],o=a[2],v=g[5],aY=a[1];if(o){var
 p=o[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-aG=[0,o[1],p[1],q[1]],r=ne(function(f){function
-g(a){return aR(a,aY,J(c,b))}if(f){var
-a=e(g,f[2]),d=g(f[1]),h=gT(a),i=G(d[2],h),j=gT(a);return[0,d,[0,aQ(d[1],j),i],a]}return aa(u)},aG),P=l(function(a){return n(f(a),[0,h])},o),Q=P?g2(c,h,j,v,r,ap,an):P,R=Q?g2(c,h,j,v,r,ap,am):Q,T=R?g2(c,h,j,v,r,ao,an):R;if(T)return g2(c,h,j,v,r,ao,am);var
+aF=[0,o[1],p[1],q[1]],r=nm(function(f){function
+g(a){return aS(a,aY,J(c,b))}if(f){var
+a=e(g,f[2]),d=g(f[1]),h=g1(a),i=G(d[2],h),j=g1(a);return[0,d,[0,aR(d[1],j),i],a]}return ad(u)},aF),P=l(function(a){return n(f(a),[0,h])},o),Q=P?g_(c,h,j,v,r,ap,an):P,R=Q?g_(c,h,j,v,r,ap,am):Q,T=R?g_(c,h,j,v,r,ao,an):R;if(T)return g_(c,h,j,v,r,ao,am);var
 U=T}else
 var
 U=q;var
@@ -2294,37 +2335,37 @@ var
 at=F;return at}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
-au=a[2],av=a[1],aZ=g[2],a1=g[1];return cQ(i,k,function(e){var
+au=a[2],av=a[1],aZ=g[2],a0=g[1];return cU(i,k,function(e){var
 a=n(f(e),h),d=a?n(f(au),h):a;if(d){var
 g=function(a){if(a){var
 d=a[2],e=n(f(d),h);if(e){var
-i=dP(av,dQ(av,au,J(c,b),d));return a0(c,h,a$(g3(c,a1,aZ,a[1][2],d),i))}var
+i=dV(av,dW(av,au,J(c,b),d));return a1(c,h,a$(g$(c,a0,aZ,a[1][2],d),i))}var
 g=e}else
 var
-g=a;return g},i=j?j[1]:aa(u);return jb(h,jd(i,e),g)}return d})}return 0;case
+g=a;return g},i=j?j[1]:ad(u);return ji(h,jk(i,e),g)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
-a2=g[3],a3=g[2],a4=function(a){return m_(c,h,j,a3,a2,a)};return cQ(i,g[1],a4)}return 0;case
+a2=g[3],a3=g[2],a4=function(a){return ng(c,h,j,a3,a2,a)};return cU(i,g[1],a4)}return 0;case
 11:if(typeof
 a==="number"&&!a){var
-M=fz(i,g[1]);if(M){var
-a5=g[2],N=ad(e(function(a){return fz(i,a)},a5));if(N){var
-a6=nD(g[5]),O=fz(i,[0,g[3],[0,g[4],a6]]);if(O){var
+M=fG(i,g[1]);if(M){var
+a5=g[2],N=ac(e(function(a){return fG(i,a)},a5));if(N){var
+a6=nR(g[5]),O=fG(i,[0,g[3],[0,g[4],a6]]);if(O){var
 w=O[1];if(w){var
-x=w[2];if(x){var
-y=x[2],aw=fz(i,g[6]);if(aw){if(y)var
-B=y[2],a7=B?B[2]?0:[0,[0,y[1][2],B[1]]]:B,D=a7;else
+y=w[2];if(y){var
+z=y[2],aw=fG(i,g[6]);if(aw){if(z)var
+B=z[2],a7=B?B[2]?0:[0,[0,z[1][2],B[1]]]:B,D=a7;else
 var
-D=y;var
-ax=x[1][2],ay=w[1][2],az=N[1],a8=M[1],X=ny(c,h,j,az,ay,ax,function(d){return[0,eD(c,aq(function(b,a){return A(S(c,aF(d,b)),a)},u,a8))]});if(X)var
+D=z;var
+ax=y[1][2],ay=w[1][2],az=N[1],a8=M[1],X=nM(c,h,j,az,ay,ax,function(d){return[0,eL(c,aq(function(b,a){return A(S(c,aH(d,b)),a)},u,a8))]});if(X)var
 Y=X;else{if(D){var
-Z=D[1],_=Z[2],$=Z[1];return ny(c,h,j,az,ay,ax,function(f){var
-b=ch(_[1]),a=cg(c,C($,S(c,b)));if(a){var
-d=b0(c,a[1]),e=C($,t(c,b,aF(f,_)));return z(function(a){return t(c,e,a)},d)}return a})}var
+Z=D[1],_=Z[2],$=Z[1];return nM(c,h,j,az,ay,ax,function(f){var
+b=cl(_[1]),a=ck(c,C($,S(c,b)));if(a){var
+d=b2(c,a[1]),e=C($,t(c,b,aH(f,_)));return x(function(a){return t(c,e,a)},d)}return a})}var
 Y=D}return Y}var
 aA=aw}else
 var
-aA=x;var
+aA=y;var
 aB=aA}else
 var
 aB=w;var
@@ -2337,37 +2378,37 @@ aD=N;var
 aE=aD}else
 var
 aE=M;return aE}return 0;default:return 0}}function
-nE(c,a){var
-d=s(a[1],c,0);if(d)var
-g=a[2][2],b=ad(e(function(a){var
-b=s(a[2],c,0);return z(function(b){return[0,a[1],b]},b)},g)),h=b?[0,[0,a[2][1],b[1]]]:b,f=h;else
+nS(c,a){var
+d=r(a[1],c,0);if(d)var
+g=a[2][2],b=ac(e(function(a){var
+b=r(a[2],c,0);return x(function(b){return[0,a[1],b]},b)},g)),h=b?[0,[0,a[2][1],b[1]]]:b,f=h;else
 var
 f=d;return f}function
-nF(b,a){return g(b,cH(a[1]))}function
-nG(a,B,z,v,r,av,o,m,q,p,k){switch(p[0]){case
+nT(b,a){return g(b,cL(a[1]))}function
+nU(a,B,z,v,s,aw,o,m,q,p,k){switch(p[0]){case
 9:var
 a7=p[2],a8=p[1];if(typeof
 k!=="number"&&9===k[0]){var
-aw=k[2],M=k[1],a9=k[3];if(0<aX(k[4]))return eG(a,z,v,r,o,f(m),q,p,k);var
-a_=cK(g(r,y(function(a){return g(a[1],[0,a[2],0])},v)),B),aT=e(aa,av),_=cj(0,bC(a,g4(0,m,a8),aT),a_,B),az=n(f(m),uZ),aA=az?de(r,_):az;if(aA){var
-N=fy(_,v);if(N){var
-O=fy(o,v);if(O){var
-P=ad(e(function(a){return nE(o,a)},a7));if(P){var
-Q=nh(N[1]);if(Q){var
-aB=O[1],bb=P[1],bc=Q[1],ab=eD(a,aq(function(f,i){function
+ax=k[2],M=k[1],a9=k[3];if(0<aX(k[4]))return eP(a,z,v,s,o,f(m),q,p,k);var
+a_=cO(g(s,y(function(a){return g(a[1],[0,a[2],0])},v)),B),aR=e(ad,aw),_=c$(0,b4(a,ha(0,m,a8),aR),a_,B),ay=n(f(m),vc),aA=ay?dk(s,_):ay;if(aA){var
+N=fF(_,v);if(N){var
+O=fF(o,v);if(O){var
+P=ac(e(function(a){return nS(o,a)},a7));if(P){var
+Q=np(N[1]);if(Q){var
+aB=O[1],bb=P[1],bc=Q[1],aa=eL(a,aq(function(f,i){function
 b(b,d){var
-a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return bK(s(d,c[3],u))}function
+a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return bL(r(d,c[3],u))}function
 c(a){var
-b=h(a,uB),c=bs(h(a,uC),b);return bs(h(a,0),c)}var
+b=h(a,uP),c=bv(h(a,uQ),b);return bv(h(a,0),c)}var
 d=c(function(a){var
-c=b(uD,a),d=b(uE,a);return G(G(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,uF),d=b(a,uG);return G(G(b(a,0),d),c)});return A(i,S(a,eD(a,t(a,[0,e,e],g))))},u,bc)),D=aR(a9,M,J(a,b)),af=K(d,C(D,ab)[1]),ag=af?n(f(aw),uM):af,ah=ag?n(f(aB),uN):ag;if(ah){var
-E=b0(a,D);if(E){var
-aU=ax(t(a,ab,E[1])),aV=C(J(a,b),aU),aW=ba(uO);return l(function(i){var
-g=e(function(b){return ni(a,i,b[1],b[2])},bb),p=h(ay(function(a){return aF(i,a)}),aB),F=q?aF(i,q[1]):u,N=S(a,aV),r=S(a,D),o=dP(M,dQ(M,aw,J(a,b),p)),c=a$(ac([0,$(F),0],uH),o);if(g){var
+c=b(uR,a),d=b(uS,a);return G(G(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,uT),d=b(a,uU);return G(G(b(a,0),d),c)});return A(i,S(a,eL(a,t(a,[0,e,e],g))))},u,bc)),D=aS(a9,M,J(a,b)),af=K(d,C(D,aa)[1]),ag=af?n(f(ax),u0):af,ah=ag?n(f(aB),u1):ag;if(ah){var
+E=b2(a,D);if(E){var
+aU=au(t(a,aa,E[1])),aV=C(J(a,b),aU),aW=ba(u2);return l(function(i){var
+g=e(function(b){return nq(a,i,b[1],b[2])},bb),p=h(az(function(a){return aH(i,a)}),aB),F=q?aH(i,q[1]):u,N=S(a,aV),r=S(a,D),o=dV(M,dW(M,ax,J(a,b),p)),c=a$(ab([0,$(F),0],uV),o);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-B=d[1],E=g[1],I=f[1],j=a0(a,uJ,a$(ac([0,$(r),0],uI),c));if(j)return l(function(D){var
+B=d[1],E=g[1],I=f[1],j=a1(a,uX,a$(ab([0,$(r),0],uW),c));if(j)return l(function(D){var
 J=C(N,F),K=D[2]?B:$(B),L=D[1]?E:$(E),o=0;if(c){var
 b=c[1],l=0;if(b){var
 d=b[2],m=0;if(d){var
@@ -2407,7 +2448,7 @@ var
 z=b;if(!l){var
 A=z;o=1}}else{var
 A=c;o=1}if(o)var
-k=A;return a0(a,uL,k)},uK);var
+k=A;return a1(a,uZ,k)},uY);var
 k=j}else
 var
 k=f;var
@@ -2426,51 +2467,51 @@ aC=P;var
 aD=aC}else
 var
 aD=O;var
-aG=aD}else
+aE=aD}else
 var
-aG=N;var
-aH=aG}else
+aE=N;var
+aG=aE}else
 var
-aH=aA;return aH}return eG(a,z,v,r,o,f(m),q,p,k);case
+aG=aA;return aG}return eP(a,z,v,s,o,f(m),q,p,k);case
 10:var
 i=p[1];if(typeof
 k!=="number"&&9===k[0]){var
-j=f(m),a2=cK(nF(r,i),B),a3=e(aa,av),a4=i[7],a5=i[6],a6=f(m),au=cj(0,bC(a,nq(i[8],a6,m,a5,a4),a3),a2,B),aI=ae(i[8],j),aJ=aI?n(f(i[1]),j):aI;if(aJ)var
+j=f(m),a2=cO(nT(s,i),B),a3=e(ad,aw),a4=i[7],a5=i[6],a6=f(m),av=c$(0,b4(a,ny(i[8],a6,m,a5,a4),a3),a2,B),aI=ae(i[8],j),aJ=aI?n(f(i[1]),j):aI;if(aJ)var
 bd=i[1],R=l(function(a){return n(f(a),j)},bd);else
 var
 R=aJ;if(R)var
-be=nF(r,i),T=l(function(b){var
-a=s(b,au,0),c=a?1:a;return c},be);else
+be=nT(s,i),T=l(function(b){var
+a=r(b,av,0),c=a?1:a;return c},be);else
 var
 T=R;if(T)var
 bf=i[3],U=l(function(b){var
-a=s(b,o,0),c=a?1:a;return c},bf);else
+a=r(b,o,0),c=a?1:a;return c},bf);else
 var
 U=T;if(U){var
-bg=i[1],V=ad(e(function(a){return fz(au,a)},bg));if(V){var
-W=fy(o,i[2]);if(W){var
-bh=i[4],X=ad(e(function(a){return nE(o,a)},bh));if(X){var
-Y=k[4],aK=k[2],Z=k[1],aL=X[1],aM=W[1],aN=V[1],w=i[8],bi=k[3],aj=nk(a,j,w,aN),F=aR(bi,Z,J(a,b)),ak=mn(Y,d);if(ak)var
+bg=i[1],V=ac(e(function(a){return fG(av,a)},bg));if(V){var
+W=fF(o,i[2]);if(W){var
+bh=i[4],X=ac(e(function(a){return nS(o,a)},bh));if(X){var
+Y=k[4],aK=k[2],Z=k[1],aL=X[1],aM=W[1],aN=V[1],w=i[8],bi=k[3],aj=ns(a,j,w,aN),F=aS(bi,Z,J(a,b)),ak=mw(Y,d);if(ak)var
 H=ak;else
 var
-as=mo(Y,c(2,c(2,c(2,c(2,b))))),at=as?aE(0,w):as,H=at?aE(w,j):at;var
+as=mx(Y,c(2,c(2,c(2,c(2,b))))),at=as?aF(0,w):as,H=at?aF(w,j):at;var
 al=H?K(d,C(F,aj)[1]):H,am=al?n(f(aK),j):al,an=am?n(f(aM),j):am;if(an){var
 ao=I(i[5]);if(ao)var
 x=ao;else
 var
 ar=l(function(c){var
 b=aq(function(c,b){var
-a=bK(c[2]);return A([0,a,a],b)},u,c);return nr(a,i[6],b)},aN),x=ar?l(function(c){var
+a=bL(c[2]);return A([0,a,a],b)},u,c);return nz(a,i[6],b)},aN),x=ar?l(function(c){var
 d=c[2],b=aq(function(b,d){var
-c=bK(b[2][2]);return A(t(a,b[1],[0,c,c]),d)},u,d);return nr(a,i[6],b)},aL):ar}else
+c=bL(b[2][2]);return A(t(a,b[1],[0,c,c]),d)},u,d);return nz(a,i[6],b)},aL):ar}else
 var
 x=an;if(x){var
-L=b0(a,F);if(L){var
-aY=ax(t(a,aj,L[1])),aZ=C(J(a,b),aY),a1=ba(j);return l(function(d){var
-s=e(function(b){return ni(a,d,b[1],b[2])},aL),y=h(ay(function(a){return aF(d,a)}),aM),t=q?aF(d,q[1]):u,z=S(a,aZ),A=S(a,F),B=nl(j,w,i[9],Y),k=e(function(a){var
-b=a[2];return[0,nm(B,a[1]),b]},y),v=dP(Z,dQ(Z,aK,J(a,b),k)),c=a$(ac([0,$(t),0],j),v),m=n(f(k),j),o=m?n(f(s),j):m,p=o?no(j,c):o,r=p?a0(a,j,a$(ac([0,$(A),0],j),c)):p;if(r){var
-x=ba(aS(j));return l(function(b){var
-d=C(z,t);return a0(a,[0,j],nn(c,np(g(b,uP),s),d))},x)}return r},a1)}var
+L=b2(a,F);if(L){var
+aY=au(t(a,aj,L[1])),aZ=C(J(a,b),aY),a0=ba(j);return l(function(d){var
+s=e(function(b){return nq(a,d,b[1],b[2])},aL),y=h(az(function(a){return aH(d,a)}),aM),t=q?aH(d,q[1]):u,z=S(a,aZ),A=S(a,F),B=nt(j,w,i[9],Y),k=e(function(a){var
+b=a[2];return[0,nu(B,a[1]),b]},y),v=dV(Z,dW(Z,aK,J(a,b),k)),c=a$(ab([0,$(t),0],j),v),m=n(f(k),j),o=m?n(f(s),j):m,p=o?nw(j,c):o,r=p?a1(a,j,a$(ab([0,$(A),0],j),c)):p;if(r){var
+x=ba(aT(j));return l(function(b){var
+d=C(z,t);return a1(a,[0,j],nv(c,nx(g(b,u3),s),d))},x)}return r},a0)}var
 ap=L}else
 var
 ap=x;return ap}var
@@ -2482,8 +2523,8 @@ var
 aP=V;var
 aQ=aP}else
 var
-aQ=U;return aQ}return eG(a,z,v,r,o,f(m),q,p,k);default:return eG(a,z,v,r,o,f(m),q,p,k)}}function
-g$(c){var
+aQ=U;return aQ}return eP(a,z,v,s,o,f(m),q,p,k);default:return eP(a,z,v,s,o,f(m),q,p,k)}}function
+hh(c){var
 a=c;for(;;){var
 b=0;if(typeof
 a==="number"){if(1!==a)b=1}else
@@ -2491,24 +2532,24 @@ switch(a[0]){case
 11:var
 a=a[3];continue;case
 12:var
-d=a[1];return l(function(a){return g$(a[2])},d);case
+d=a[1];return l(function(a){return hh(a[2])},d);case
 1:break;case
 5:case
 10:var
 a=a[1];continue;default:b=1}return b?0:1}}function
-ha(a){if(typeof
+hi(a){if(typeof
 a==="number"){if(1===a)return 0}else
 switch(a[0]){case
 1:return[0,a[1],a[2]];case
 5:var
-b=a[3],c=a[2];return[5,ha(a[1]),c,b];case
+b=a[3],c=a[2];return[5,hi(a[1]),c,b];case
 10:var
-d=a[3],e=a[2];return[10,ha(a[1]),e,d];case
+d=a[4],e=a[3],f=a[2];return[10,hi(a[1]),f,e,d];case
 11:var
-f=ha(a[3]);return[11,a[1],a[2],f]}return a}function
-df(a){return y(function(a){return g(a[1],[0,a[2],0])},a)}function
-fA(i,c,h,a,f){var
-j=g$(f)?c:i,d=df(j);switch(a[0]){case
+g=hi(a[3]);return[11,a[1],a[2],g]}return a}function
+dl(a){return y(function(a){return g(a[1],[0,a[2],0])},a)}function
+fH(i,c,h,a,f){var
+j=hh(f)?c:i,d=dl(j);switch(a[0]){case
 0:return g(h,d);case
 3:return[0,a[1],0];case
 5:return[0,a[1],[0,a[2],0]];case
@@ -2516,32 +2557,108 @@ j=g$(f)?c:i,d=df(j);switch(a[0]){case
 k=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return y(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},k);case
 9:var
 l=a[2],m=y(function(a){var
-b=e(aH,a[2][2]);return[0,a[1],b]},l);return g(df(c),m);case
+b=e(aJ,a[2][2]);return[0,a[1],b]},l);return g(dl(c),m);case
 10:var
 b=a[1],n=b[4],o=y(function(a){var
-b=e(aH,a[2][2]);return[0,a[1],b]},n),p=g(b[3],o);return g(df(b[2]),p);case
+b=e(aJ,a[2][2]);return[0,a[1],b]},n),p=g(b[3],o);return g(dl(b[2]),p);case
 11:var
-q=a[6],r=g(nD(a[5]),q),s=[0,a[3],[0,a[4],r]],t=g(cH(a[2]),s);return g(a[1],t);case
+q=a[6],r=g(nR(a[5]),q),s=[0,a[3],[0,a[4],r]],t=g(cL(a[2]),s);return g(a[1],t);case
 4:case
-8:return df(a[1]);default:return d}}function
-hb(d){var
+8:return dl(a[1]);default:return d}}function
+fI(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=I(al(function(b){return function(a){return n(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=I(aj(function(b){return function(a){return n(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-jw(j,i,h,g,a){var
-d=s(a,j,0);if(d){var
-b=s(a,i,0);if(b)var
-c=nx(0,g,s(a,h,u0)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
+jE(a,i,h,n,s,d,b,c){var
+j=e(ad,jt(b,0,h));if(c){var
+k=e(function(a){return hc(a[1],c)?a[1]:f(h)},b),u=c$(vg,function(b){return jn(a,s,j,k,b)},d,i),t=ju(b,c),aK=e(at,b),aL=e(ad,h),v=c$(vh,function(b){var
+g=jn(a,s,aL,aK,b3(at,b)),f=0;switch(b[0]){case
+3:var
+af=function(b,a){return br},m=af,h=b[2],l=b[1];f=1;break;case
+4:var
+aj=function(b,a){return cr},m=aj,h=b[2],l=b[1];f=1;break;case
+5:var
+ak=function(b,a){return eN},u=ak,i=b[1];f=2;break;case
+6:var
+v=b[2],w=b[1],x=w[1][1],ab=0;if(x){var
+y=v[1][1],ao=x[1];if(y){var
+ap=y[1],aq=w[1],N=function(a){return bN(aq,a)},ar=v[1],O=function(a){return bN(ar,a)},m=function(c,b,e,d){var
+f=bq(a,ao,d),g=br(bq(a,ap,e),f),h=O(c),i=cT(a,N(b),h),j=O(b);return br(br(cT(a,N(c),j),i),g)},h=v,l=w;f=1;ab=1}else
 var
-e=b;var
-f=e}else
+P=y}else
 var
-f=d;return f}function
-hc(j,b,a){if(a){var
-k=a[1],l=k[2],c=ad(e(b,k[1]));if(c){var
+P=x;if(!ab)var
+d=P;break;case
+7:var
+z=b[2],A=g[1],ac=0;if(A){var
+B=z[1][1],as=A[1];if(B){var
+au=B[1],Q=function(a){return bN(g,a)},av=z[1],R=function(a){return bN(av,a)},aw=function(c,b,e,d){var
+f=R(b),g=cT(a,Q(c),f),h=bq(a,as,d),i=R(c);return dX(a,au,cr(cr(e,br(cT(a,Q(b),i),h)),g))},m=aw,h=z,l=b[1];f=1;ac=1}else
+var
+S=B}else
+var
+S=A;if(!ac)var
+d=S;break;case
+8:var
+C=b[1],D=C[1][1];if(D){var
+ax=D[1],u=function(d,c,b){var
+e=bq(a,ax,b),f=br(nI(a,C[1],d,c),e);return bq(a,dh(a),f)},i=C;f=2}else
+var
+d=D;break;case
+9:var
+E=g[1];if(E){var
+ay=E[1],az=aG(a,dh(a),ay),aA=function(d,c,b){var
+e=nI(a,g,d,c);return dX(a,az,cr(b,bq(a,dh(a),e)))},u=aA,i=b[1];f=2}else
+var
+d=E;break;case
+10:var
+F=b[4],G=b[3],H=b[2],T=b[1],I=H[1][1],M=0;if(I){var
+n=I[1],J=G[1][1],ad=0;if(J){var
+o=J[1],K=F[1][1],ae=0;if(K){var
+L=je(a,n,o,K[1]);if(L){var
+U=L[1],j=U[2],k=U[1],c=function(b,c){return bq(a,b,c)},p=dh(a),aB=H[1],q=function(a){return bN(aB,a)},aC=G[1],r=function(a){return bN(aC,a)},aD=F[1],V=bf(n,k),W=bf(o,j),aE=aG(a,n,j),X=aG(a,p,bf(aG(a,o,k),aE)),Y=function(a){var
+d=bN(aD,a),b=c(W,r(a));return cr(c(p,br(c(V,q(a)),b)),d)},Z=function(d,b){return dX(a,X,c(d,Y(b)))},aF=dP(j),aH=F[2],aI=G[2],aJ=H[2],d=hd(function(d,b,l,i,h){var
+f=Z(aF,b),e=Z(k,b),m=c(W,i),s=r(d),t=br(cT(a,cr(r(b),e),s),m),u=c(V,l),v=q(d),w=cr(c(p,br(br(cT(a,cr(q(b),f),v),u),t)),h),x=c(n,e),y=br(c(j,q(b)),x),z=c(o,f),A=c(p,cr(br(c(k,r(b)),z),y)),B=cT(a,bN(g,d),A),C=T?k:dP(j),D=c(C,w),E=Y(d),F=T?f:eN(e);return dX(a,X,cr(br(cT(a,F,E),D),B))},t,aJ,aI,aH);ad=1;ae=1}else
+var
+_=L}else
+var
+_=K;if(!ae)var
+$=_}else
+var
+$=J;if(!ad){var
+aa=$;M=1}}else{var
+aa=I;M=1}if(M)var
+d=aa;break;default:var
+d=e(function(a){return 0},t)}switch(f){case
+1:var
+ag=h[2],ah=h[2],ai=l[2],d=hd(function(d,c,b,a,e){return gp(m,d,c,b,a)},t,ai,ah,ag);break;case
+2:var
+al=i[2],am=i[2],an=i[2],d=hd(function(c,b,a,e,d){return fd(u,c,b,a)},t,an,am,al);break}return[0,g,d]},d,i);return function(h){var
+i=r(h,u,ve),j=r(h,n,0);if(j){var
+d=i[1];if(d)var
+k=r(h,v,vf),o=aB(0,f(ju(b,c))),p=e(function(a){return r(a,k[2],nH)},o),q=aB(0,f(b)),a=nL(g(e(function(a){var
+d=hc(nJ(b,a),c)?i:k[1];return bN(d,a)},q),p)),s=a?[0,[0,d[1],a[1]]]:a,l=s;else
+var
+l=d;var
+m=l}else
+var
+m=j;return m}}var
+l=c$(0,b4(a,s,j),d,i),m=e(at,b),o=e(ad,h),p=c$(vi,function(b){return jn(a,s,o,m,b)},d,i);return function(d){var
+e=r(d,n,0);if(e){var
+a=r(d,l,0);if(a)var
+c=nG(0,b,r(d,p,vd)),h=c?[0,[0,a[1],c[1]]]:c,f=h;else
+var
+f=a;var
+g=f}else
+var
+g=e;return g}}function
+jF(a,c){var
+b=l(function(a){return hc(a,e(at,c))},a);return b?fI(a):b}function
+hj(j,b,a){if(a){var
+k=a[1],l=k[2],c=ac(e(b,k[1]));if(c){var
 f=h(b,l);if(f){var
-g=s(l,j,0);if(g){var
-i=hc(j,b,a[2]);if(i)var
+g=r(l,j,0);if(g){var
+i=hj(j,b,a[2]);if(i)var
 m=K(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],i[1]]]:m;else
 var
 n=i;var
@@ -2553,255 +2670,260 @@ var
 p=f;var
 q=p}else
 var
-q=c;return q}return u1}function
-nH(c,x,i,aH,w,q,p,N,M,g,b,j,a){var
-h=f(N),O=dO(0,N),P=cK(fA(i,aH,w,g,b),x),aJ=cj(0,bC(c,O,e(aa,fw(j,0,q))),P,x),aK=e(aA,j),aL=e(aa,q),aM=cj(u2,function(a){return ji(c,O,aL,aK,a)},P,x),aN=g6(j,q);function
-Q(a){return jw(p,aJ,aM,j,a)}function
-y(a){return e(function(a){return J(c,a)},a)}var
-aO=M?M[1]:aa(u);function
-S(a){return a?a0(c,h,a[1]):a}function
+q=c;return q}return vj}function
+nV(c,Q,j,aJ,y,x,q,P,O,g,b,o,w,a){var
+i=f(P),aK=dU(0,P),aL=cO(fH(j,aJ,y,g,b),Q),aM=jv(c,o,w,x),S=jE(c,Q,x,q,aK,aL,o,w);function
+z(a){return e(function(a){return J(c,a)},a)}var
+aN=O?O[1]:ad(u);function
+T(a){return a?a1(c,i,a[1]):a}function
 r(f,e,d,b,a){var
-g=ac([0,$(e),0],h);return S(jn(c,y(f),d,b,a,g))}function
-T(d,b,a){var
-e=ac([0,b,0],h);return S(nt(c,y(d),a,e))}var
-aP=e(aA,j),U=l(function(a){return aE(a,f(q))},aP),W=U?hb(e(aA,j)):U,X=W?l(function(a){return n(f(a),h)},a):W;if(X){var
+g=ab([0,$(e),0],i);return T(js(c,z(f),d,b,a,g))}function
+U(d,b,a){var
+e=ab([0,b,0],i);return T(nB(c,z(d),a,e))}var
+aO=e(at,o),W=l(function(a){return aF(a,f(x))},aO),X=W?fI(e(at,o)):W;if(X)var
+Y=jF(w,o),B=Y?l(function(a){return n(f(a),i)},a):Y;else
+var
+B=X;if(B){var
 v=0;switch(g[0]){case
 0:var
-z=g[1],I=0;if(typeof
+D=g[1],M=0;if(typeof
 b!=="number")switch(b[0]){case
 0:var
-as=0;if(a){if(a[2])return 0;var
-aR=a[1],aS=b[2],aT=b[1],Y=de(w,p);if(Y){var
+av=0;if(a){if(a[2])return 0;var
+aP=a[1],aQ=b[2],aS=b[1],Z=dk(y,q);if(Z){var
 m=function(c,a){var
-b=A(z,a);return function(a){return r(aR,b,aT,aS,a)}},k=i;I=1;as=1}else
+b=A(D,a);return function(a){return r(aP,b,aS,aQ,a)}},k=j;M=1;av=1}else
 var
-ab=Y}else
+ac=Z}else
 var
-ab=a;if(!as)return ab;break;case
+ac=a;if(!av)return ac;break;case
 2:var
-at=0;if(a){if(a[2])return 0;var
-aV=a[1],aW=b[2],aX=b[1],ad=de(w,p),au=0;if(ad){var
-ae=L(z[1],d),af=ae?L(z[2],d):ae;if(af){var
-m=function(c,b,a){return r(aV,b,aX,aW,e(ns,a))},k=i;I=1;at=1;au=1}else
+aw=0;if(a){if(a[2])return 0;var
+aU=a[1],aV=b[2],aW=b[1],ae=dk(y,q),ax=0;if(ae){var
+af=L(D[1],d),ag=af?L(D[2],d):af;if(ag){var
+m=function(c,b,a){return r(aU,b,aW,aV,e(nA,a))},k=j;M=1;aw=1;ax=1}else
 var
-ag=af}else
-var
-ag=ad;if(!au)var
 ah=ag}else
 var
-ah=a;if(!at)return ah;break}if(!I)return 0;break;case
+ah=ae;if(!ax)var
+ai=ah}else
+var
+ai=a;if(!aw)return ai;break}if(!M)return 0;break;case
 1:var
-av=0,aY=g[1];if(typeof
+ay=0,aX=g[1];if(typeof
 b==="number"&&!b){if(!a)return a;if(a[2])return 0;var
-aZ=a[1],m=function(c,a){var
-b=C(aY,a);return function(a){return T(aZ,b,a)}},k=i;av=1}if(!av)return 0;break;case
+aY=a[1],m=function(c,a){var
+b=C(aX,a);return function(a){return U(aY,b,a)}},k=j;ay=1}if(!ay)return 0;break;case
 2:var
-aw=0,a1=g[1];if(typeof
-b==="number"||!(3===b[0]))aw=1;else{var
-ay=0;if(a){var
-s=a[2],az=0;if(s){if(s[2])return 0;var
-ai=b[1],a2=s[1],a3=a[1],a4=b[2],aj=jv(c,ai,b[3]),ak=jf(h,aj);if(ak){var
+az=0,aZ=g[1];if(typeof
+b==="number"||!(3===b[0]))az=1;else{var
+aA=0;if(a){var
+s=a[2],aC=0;if(s){if(s[2])return 0;var
+aj=b[1],a0=s[1],a2=a[1],a3=b[2],ak=jD(c,aj,b[3]),al=jm(i,ak);if(al){var
 m=function(f,b,a){var
-d=aF(f,aj),e=r(a3,A(d,b),ai,a4,a);return e?T(a2,C(t(c,a1,d),b),a):e},k=i;ay=1;az=1}else
+d=aH(f,ak),e=r(a2,A(d,b),aj,a3,a);return e?U(a0,C(t(c,aZ,d),b),a):e},k=j;aA=1;aC=1}else
 var
-al=ak}else
-var
-al=s;if(!az)var
 am=al}else
 var
-am=a;if(!ay)return am}if(aw)return 0;break;case
+am=s;if(!aC)var
+an=am}else
+var
+an=a;if(!aA)return an}if(az)return 0;break;case
 3:var
-aB=0;if(typeof
+aD=0;if(typeof
 b==="number"&&!b){if(a)return 0;var
-D=g[1];v=1}else
-aB=1;if(aB)return 0;break;case
+H=g[1];v=1}else
+aD=1;if(aD)return 0;break;case
 4:var
-aC=0,a6=g[2];if(typeof
-b==="number"||!(0===b[0]))aC=1;else{if(!a)return a;if(a[2])return 0;var
-a7=a[1],a8=b[2],a9=b[1],a_=function(c,a){var
-b=A(a6,a);return function(a){return r(a7,b,a9,a8,a)}},m=a_,k=g[1]}if(aC)return 0;break;case
+aE=0,a5=g[2];if(typeof
+b==="number"||!(0===b[0]))aE=1;else{if(!a)return a;if(a[2])return 0;var
+a6=a[1],a7=b[2],a8=b[1],a9=function(c,a){var
+b=A(a5,a);return function(a){return r(a6,b,a8,a7,a)}},m=a9,k=g[1]}if(aE)return 0;break;case
 5:var
-K=0;if(typeof
+N=0;if(typeof
 b==="number"&&!(3<=b))switch(b){case
 0:if(a)return 0;var
-D=g[1];v=1;break;case
+H=g[1];v=1;break;case
 2:if(a)return 0;var
-D=g[2];v=1;break;default:K=1}else
-K=1;if(K)return 0;break;case
+H=g[2];v=1;break;default:N=1}else
+N=1;if(N)return 0;break;case
 7:var
-an=g[2],ao=g[1],aD=0;if(typeof
-b==="number"||!(0===b[0]))aD=1;else{var
-aG=0;if(a){if(a[2])return 0;var
-o=b[2],H=b[1],bb=a[1],ap=n(f(i),h);if(ap){var
+ao=g[2],ap=g[1],aG=0;if(typeof
+b==="number"||!(0===b[0]))aG=1;else{var
+aI=0;if(a){if(a[2])return 0;var
+p=b[2],K=b[1],a_=a[1],ar=n(f(j),i);if(ar){var
 m=function(a,x){var
-z=y(bb);return function(g){var
-k=n(f(g),h),l=k?n(f(o),h):k;if(l){var
-s=e(aA,g),u=dP(H,dQ(H,o,cn(c),s)),v=a$(g3(c,ao,an,x,e(aA,g)),u),a=0,b=g,i=v,w=f(o);for(;;){if(b){var
-p=b[1][2],q=n(a,ao),r=e(function(g,h){return function(d){var
-a=V(aI(0,f(o)),o);return e(function(a){var
-b=nv(H,a[2],d[1]);if(h&&n(a[1],g))return C(b,ax(t(c,an,d[2])));return b},a)}}(a,q),p),j=fv(c,z,nu(c,a,w),r,i);if(j){var
-a=[0,a],b=b[2],i=j[1];continue}var
+y=z(a_);return function(g){var
+k=n(f(g),i),l=k?n(f(p),i):k;if(l){var
+s=e(at,g),u=dV(K,dW(K,p,cq(c),s)),v=a$(g$(c,ap,ao,x,e(at,g)),u),a=0,b=g,h=v,w=f(p);for(;;){if(b){var
+o=b[1][2],q=n(a,ap),r=e(function(g,h){return function(d){var
+a=V(aB(0,f(p)),p);return e(function(a){var
+b=nD(K,a[2],d[1]);if(h&&n(a[1],g))return C(b,au(t(c,ao,d[2])));return b},a)}}(a,q),o),j=fD(c,y,nC(c,a,w),r,h);if(j){var
+a=[0,a],b=b[2],h=j[1];continue}var
 d=j}else
 var
-d=[0,i];if(d)return a0(c,h,d[1]);var
+d=[0,h];if(d)return a1(c,i,d[1]);var
 m=d;break}}else
 var
-m=l;return m}},k=i;aG=1}else
+m=l;return m}},k=j;aI=1}else
 var
-ar=ap}else
+as=ar}else
 var
-ar=a;if(!aG)return ar}if(aD)return 0;break;default:return 0}if(v){var
-E=Q(D);if(!E)return E;var
-a5=function(b,f,a){return l(function(a){var
-b=f[2],c=a[2],e=aq(function(b,a){return G(bs(d,R(b[2][1])),a)},d,c);return F(d,aQ(aQ(a[1][2][1],e),b))},a)},_=a5,Z=[0,[0,0,E[1]],0]}else{var
-B=hc(p,Q,k);if(!B)return B;var
-_=m,Z=B[1]}var
-aU=ba(h);return l(function(a){var
-b=e(function(b){return g7(c,a,aN,b)},Z);return gh(_,a,aF(a,aO),b)},aU)}return X}function
-jx(j,a){var
-f=aq(function(b,a){return bs(cC(b),a)},d,a);function
-g(a){if(a){if(L(cC(a[1]),f))return 0;var
+as=a;if(!aI)return as}if(aG)return 0;break;default:return 0}if(v){var
+I=h(S,H);if(!I)return I;var
+a4=function(b,f,a){return l(function(a){var
+b=f[2],c=a[2],e=aq(function(b,a){return G(bv(d,R(b[2][1])),a)},d,c);return F(d,aR(aR(a[1][2][1],e),b))},a)},aa=a4,_=[0,[0,0,I[1]],0]}else{var
+E=hj(q,S,k);if(!E)return E;var
+aa=m,_=E[1]}var
+aT=ba(i);return l(function(a){var
+b=e(function(b){return hb(c,a,aM,b)},_);return fd(aa,a,aH(a,aN),b)},aT)}return B}function
+jG(j,a){var
+f=aq(function(b,a){return bv(cG(b),a)},d,a);function
+g(a){if(a){if(L(cG(a[1]),f))return 0;var
 b=[0,g(a[2])]}else
 var
 b=a;return b}var
 h=g(a);if(L(f,d)){var
 k=e(function(a){return u},a),l=a?[0,b,a[2]]:a;return[0,[0,[0,0,l],d],k]}var
-i=iZ(G(mr(f),b)),m=e(function(a){return u},a);return[0,[0,[0,h,a],i],dc(u,h,J(j,cf(c(2,b),i)),m)]}function
-hd(g,w,p,an,v,o,m,M,K,i,a,h,am,H,al,G,E){var
-j=f(M),N=dO(0,M),O=cK(fA(p,an,v,i,a),w),ao=cj(0,bC(g,N,e(aa,fw(h,0,o))),O,w),ap=e(aA,h),aq=e(aa,o),ar=cj(u3,function(a){return ji(g,N,aq,ap,a)},O,w),at=g6(h,o);function
-au(a){return jw(m,ao,ar,h,a)}var
-av=K?K[1]:aa(u),P=jx(g,am),Q=P[1],R=Q[1],x=R[2],k=R[1],S=P[2],aw=Q[2],q=e(function(a){return aR(a,aw,J(g,b))},x);function
-T(a){return jq(g,k,q,H,al,G,E,jp(g,k,q,j,a,0))}function
-U(a){return a?a0(g,j,a[1]):a}function
-y(d,c,b,a){return U(jr(g,k,q,S,c,b,a,T($(d))))}var
-ax=e(aA,h),V=l(function(a){return aE(a,f(o))},ax),W=V?hb(e(aA,h)):V,X=W?n(f(x),j):W,Y=X?n(f(H),j):X,Z=Y?F(d,G):Y,_=Z?gM(E,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Z,ab=_?aE(k,j):_,ac=ab?I(L(s(k,x,d),d)):ab;if(ac){switch(i[0]){case
+i=i5(G(mA(f),b)),m=e(function(a){return u},a);return[0,[0,[0,h,a],i],di(u,h,J(j,cj(c(2,b),i)),m)]}function
+hk(g,O,o,an,w,v,m,N,M,h,a,k,t,am,K,al,H,G){var
+i=f(N),ao=dU(0,N),ap=cO(fH(o,an,w,h,a),O),aq=jv(g,k,t,v),ar=jE(g,O,v,m,ao,ap,k,t),au=M?M[1]:ad(u),P=jG(g,am),Q=P[1],R=Q[1],x=R[2],j=R[1],S=P[2],av=Q[2],p=e(function(a){return aS(a,av,J(g,b))},x);function
+T(a){return jy(g,j,p,K,al,H,G,jx(g,j,p,i,a,0))}function
+U(a){return a?a1(g,i,a[1]):a}function
+y(d,c,b,a){return U(jz(g,j,p,S,c,b,a,T($(d))))}var
+aw=e(at,k),V=l(function(a){return aF(a,f(v))},aw),W=V?fI(e(at,k)):V,X=W?n(f(x),i):W;if(X)var
+Y=jF(t,k),z=Y?n(f(K),i):Y;else
+var
+z=X;var
+Z=z?F(d,H):z,_=Z?gU(G,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Z,aa=_?aF(j,i):_,ab=aa?I(L(r(j,x,d),d)):aa;if(ab){switch(h[0]){case
 0:var
-z=i[1],D=0;if(typeof
-a==="number")D=1;else
+B=h[1],E=0;if(typeof
+a==="number")E=1;else
 switch(a[0]){case
 0:var
-ay=a[2],az=a[1],ad=de(v,m);if(!ad)return ad;var
-t=function(a){var
-b=A(z,a);return function(a){return y(b,az,ay,a)}},r=p;break;case
+ax=a[2],ay=a[1],ac=dk(w,m);if(!ac)return ac;var
+s=function(a){var
+b=A(B,a);return function(a){return y(b,ay,ax,a)}},q=o;break;case
 2:var
-aD=a[2],aG=a[1],ae=de(v,m),ai=0;if(ae){var
-af=L(z[1],d),ag=af?L(z[2],d):af;if(ag){var
-t=function(b,a){return y(b,aG,aD,e(ns,a))},r=p;ai=1}else
+aB=a[2],aC=a[1],ae=dk(w,m),ai=0;if(ae){var
+af=L(B[1],d),ag=af?L(B[2],d):af;if(ag){var
+s=function(b,a){return y(b,aC,aB,e(nA,a))},q=o;ai=1}else
 var
 ah=ag}else
 var
-ah=ae;if(!ai)return ah;break;default:D=1}if(D)return 0;break;case
+ah=ae;if(!ai)return ah;break;default:E=1}if(E)return 0;break;case
 1:var
-aj=0,aH=i[1];if(typeof
+aj=0,aD=h[1];if(typeof
 a==="number"&&!a)var
-t=function(a){var
-b=C(aH,a);return function(a){return U(nC(g,k,q,S,a,T(b)))}},r=p;else
+s=function(a){var
+b=C(aD,a);return function(a){return U(nQ(g,j,p,S,a,T(b)))}},q=o;else
 aj=1;if(aj)return 0;break;case
 4:var
-ak=0,aI=i[2];if(typeof
+ak=0,aE=h[2];if(typeof
 a==="number"||!(0===a[0]))ak=1;else
 var
-aJ=a[2],aK=a[1],aL=function(a){var
-b=A(aI,a);return function(a){return y(b,aK,aJ,a)}},t=aL,r=i[1];if(ak)return 0;break;default:return 0}var
-B=hc(m,au,r);if(B){var
-aB=B[1],aC=ba(j);return l(function(a){var
-b=e(function(b){return g7(g,a,at,b)},aB);return as(t,aF(a,av),b)},aC)}return B}return ac}function
-nI(s,r,q,p,o,n,D,m,c,l,k,j,i,g,a){var
+aG=a[2],aI=a[1],aJ=function(a){var
+b=A(aE,a);return function(a){return y(b,aI,aG,a)}},s=aJ,q=h[1];if(ak)return 0;break;default:return 0}var
+D=hj(m,ar,q);if(D){var
+az=D[1],aA=ba(i);return l(function(a){var
+b=e(function(b){return hb(g,a,aq,b)},az);return as(s,aH(a,au),b)},aA)}return D}return ab}function
+nW(s,r,q,p,o,n,E,m,c,l,k,j,i,g,a){var
 w=e(function(a){return d},c),v=0;if(typeof
 a!=="number")switch(a[0]){case
 5:var
-E=a[1],G=function(a){return hd(s,r,q,p,o,n,m,c,a,l,E,0,w,k,j,i,g)},y=G,x=a[3],t=a[2];v=1;break;case
+G=a[1],H=function(a){return hk(s,r,q,p,o,n,m,c,a,l,G,0,0,w,k,j,i,g)},y=H,x=a[3],t=a[2];v=1;break;case
 10:var
-b=a[3],B=a[2],f=a[1],C=0;if(typeof
+b=a[4],B=a[3],C=a[2],f=a[1],D=0;if(typeof
 f!=="number"&&5===f[0]){if(!b)return b;if(b[2])return 0;var
-H=b[1],I=f[1],J=function(a){return hd(s,r,q,p,o,n,m,c,a,l,I,B,H,k,j,i,g)},y=J,x=f[3],t=f[2];v=1;C=1}if(!C)return b?b[2]?0:hd(s,r,q,p,o,n,m,c,0,l,f,B,b[1],k,j,i,g):b;break}if(v){var
-u=h(D,c);if(u){var
-z=F(d,t);if(z)return y([0,g0(t,x,u[1])]);var
+I=b[1],J=f[1],K=function(a){return hk(s,r,q,p,o,n,m,c,a,l,J,C,B,I,k,j,i,g)},y=K,x=f[3],t=f[2];v=1;D=1}if(!D)return b?b[2]?0:hk(s,r,q,p,o,n,m,c,0,l,f,C,B,b[1],k,j,i,g):b;break}if(v){var
+u=h(E,c);if(u){var
+z=F(d,t);if(z)return y([0,g8(t,x,u[1])]);var
 A=z}else
 var
-A=u;return A}return hd(s,r,q,p,o,n,m,c,0,l,a,0,w,k,j,i,g)}function
-nJ(a,x,al,r,H,ak,q,p,aj,ai,i){function
-k(am,g,j,y){var
-h=f(q),B=dO(0,q),D=cK(df(al),x),as=cj(0,bC(a,B,e(aa,fw(j,0,r))),D,x),at=e(aA,j),au=e(aa,r),av=cj(u4,function(b){return ji(a,B,au,at,b)},D,x);function
-aw(a){return jw(ak,as,av,j,a)}var
-ax=am?am[1]:aa(u);function
-k(b){return b?a0(a,h,b[1]):b}function
-E(b,a){return $(A(aF(b,aj),a))}function
-G(d,c,b){return C(t(a,d,aF(c,aj)),b)}var
-ay=e(aA,j),H=l(function(a){return aE(a,f(r))},ay),K=H?hb(e(aA,j)):H,M=K?n(f(y),h):K;if(M){var
-an=0;if(ai){var
-N=ai[1],O=N[1],P=O[1],Q=P[1],R=O[2],S=N[2],az=P[2],T=jx(a,y),U=T[1],V=U[1],v=V[2],i=V[1],W=T[2],aB=U[2],m=e(function(c){return aR(c,aB,J(a,b))},v),X=function(b){return jq(a,i,m,Q,az,R,S,jp(a,i,m,h,b,0))},Y=n(f(v),h),Z=Y?n(f(Q),h):Y,_=Z?F(d,R):Z,ab=_?gM(S,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):_,ad=ab?aE(i,h):ab,ae=ad?I(L(s(i,v,d),d)):ad,z=0;if(ae)if(p){var
-ao=0,aC=p[1];if(typeof
+A=u;return A}return hk(s,r,q,p,o,n,m,c,0,l,a,0,0,w,k,j,i,g)}function
+nX(a,al,ak,x,H,aj,q,p,ai,ah,i){function
+k(am,g,j,y,z){var
+h=f(q),as=dU(0,q),au=cO(dl(ak),al),av=jv(a,j,y,x),aw=jE(a,al,x,aj,as,au,j,y),ax=am?am[1]:ad(u);function
+k(b){return b?a1(a,h,b[1]):b}function
+D(b,a){return $(A(aH(b,ai),a))}function
+E(d,c,b){return C(t(a,d,aH(c,ai)),b)}var
+ay=e(at,j),G=l(function(a){return aF(a,f(x))},ay),H=G?fI(e(at,j)):G;if(H)var
+K=jF(y,j),s=K?n(f(z),h):K;else
+var
+s=H;if(s){var
+an=0;if(ah){var
+M=ah[1],N=M[1],O=N[1],P=O[1],Q=N[2],R=M[2],az=O[2],S=jG(a,z),T=S[1],U=T[1],v=U[2],i=U[1],V=S[2],aA=T[2],m=e(function(c){return aS(c,aA,J(a,b))},v),W=function(b){return jy(a,i,m,P,az,Q,R,jx(a,i,m,h,b,0))},X=n(f(v),h),Y=X?n(f(P),h):X,Z=Y?F(d,Q):Y,_=Z?gU(R,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Z,aa=_?aF(i,h):_,ac=aa?I(L(r(i,v,d),d)):aa,B=0;if(ac)if(p){var
+ao=0,aB=p[1];if(typeof
 g==="number"&&!g){var
-o=function(d,c,b){return k(nC(a,i,m,W,b,X(G(aC,d,c))))};z=1;ao=1}if(!ao)return 0}else{var
+o=function(d,c,b){return k(nQ(a,i,m,V,b,W(E(aB,d,c))))};B=1;ao=1}if(!ao)return 0}else{var
 ap=0;if(typeof
 g!=="number"&&0===g[0]){var
-aH=g[2],aI=g[1],o=function(d,c,b){return k(jr(a,i,m,W,aI,aH,b,X(E(d,c))))};z=1;ap=1}if(!ap)var
-af=0}else
+aE=g[2],aG=g[1],o=function(d,c,b){return k(jz(a,i,m,V,aG,aE,b,W(D(d,c))))};B=1;ap=1}if(!ap)var
+ae=0}else
 var
-af=ae;if(!z)return af}else{var
-ag=e(function(b){return J(a,b)},y);if(p){var
-aq=0,aJ=p[1];if(typeof
+ae=ac;if(!B)return ae}else{var
+af=e(function(b){return J(a,b)},z);if(p){var
+aq=0,aI=p[1];if(typeof
 g==="number"&&!g){var
-o=function(d,c,b){return k(nt(a,ag,b,ac([0,G(aJ,d,c),0],h)))};aq=1}if(!aq)return 0}else{var
+o=function(d,c,b){return k(nB(a,af,b,ab([0,E(aI,d,c),0],h)))};aq=1}if(!aq)return 0}else{var
 ar=0;if(typeof
 g==="number"||!(0===g[0]))ar=1;else
 var
-aK=g[2],aL=g[1],o=function(d,c,b){return k(jn(a,ag,aL,aK,b,ac([0,E(d,c),0],h)))};if(ar){var
-ah=0;an=1}}}if(!an){var
-w=hc(ak,aw,al);if(w){var
-aD=w[1],aG=ba(h);return l(function(b){var
-c=g6(j,r),d=e(function(d){return g7(a,b,c,d)},aD);return o(b,aF(b,ax),d)},aG)}return w}}else
+aJ=g[2],aK=g[1],o=function(d,c,b){return k(js(a,af,aK,aJ,b,ab([0,D(d,c),0],h)))};if(ar){var
+ag=0;an=1}}}if(!an){var
+w=hj(aj,aw,ak);if(w){var
+aC=w[1],aD=ba(h);return l(function(b){var
+c=e(function(c){return hb(a,b,av,c)},aC);return o(b,aH(b,ax),c)},aD)}return w}}else
 var
-ah=M;return ah}var
+ag=s;return ag}var
 y=e(function(a){return d},q),w=0;if(typeof
 i!=="number")switch(i[0]){case
 5:var
-K=i[1],M=function(a){return k(a,K,0,y)},B=M,z=i[3],m=i[2];w=1;break;case
+K=i[1],M=function(a){return k(a,K,0,0,y)},B=M,z=i[3],m=i[2];w=1;break;case
 10:var
-g=i[3],v=i[2],j=i[1],G=0;if(typeof
+g=i[4],s=i[3],v=i[2],j=i[1],G=0;if(typeof
 j!=="number")switch(j[0]){case
 5:if(!g)return g;if(g[2])return 0;var
-N=g[1],O=j[1],P=function(a){return k(a,O,v,N)},B=P,z=j[3],m=j[2];w=1;G=1;break;case
+N=g[1],O=j[1],P=function(a){return k(a,O,v,s,N)},B=P,z=j[3],m=j[2];w=1;G=1;break;case
 3:case
 7:case
 9:case
 10:case
 11:case
-13:return g?g[2]?0:k(0,j,v,g[1]):g}if(!G)return g?g[2]?0:k(0,j,v,g[1]):g;break}if(w){var
+13:return g?g[2]?0:k(0,j,v,s,g[1]):g}if(!G)return g?g[2]?0:k(0,j,v,s,g[1]):g;break}if(w){var
 o=h(H,q);if(o){var
-D=F(d,m);if(D)return B([0,g0(m,z,o[1])]);var
+D=F(d,m);if(D)return B([0,g8(m,z,o[1])]);var
 E=D}else
 var
-E=o;return E}return k(0,i,0,y)}function
-nK(m,l,k,j,i,g,p,f,b,e,a){if(typeof
+E=o;return E}return k(0,i,0,0,y)}function
+nY(m,l,k,j,i,g,p,f,b,e,a){if(typeof
 a!=="number")switch(a[0]){case
 5:var
 q=a[2],n=h(p,b);if(n){var
 r=F(d,q);if(r){var
-y=a[1];return nG(m,l,k,j,i,g,f,b,[0,g0(q,a[3],n[1])],e,y)}var
+z=a[1];return nU(m,l,k,j,i,g,f,b,[0,g8(q,a[3],n[1])],e,z)}var
 s=r}else
 var
 s=n;return s;case
 10:var
-t=a[3],u=a[2],c=a[1];if(typeof
+t=a[4],u=a[3],v=a[2],c=a[1];if(typeof
 c!=="number"&&5===c[0]){var
-v=c[2],o=h(p,b);if(o){var
-w=F(d,v);if(w){var
-z=c[1];return nH(m,l,k,j,i,g,f,b,[0,g0(v,c[3],o[1])],e,z,u,t)}var
-x=w}else
+w=c[2],o=h(p,b);if(o){var
+x=F(d,w);if(x){var
+A=c[1];return nV(m,l,k,j,i,g,f,b,[0,g8(w,c[3],o[1])],e,A,v,u,t)}var
+y=x}else
 var
-x=o;return x}return nH(m,l,k,j,i,g,f,b,0,e,c,u,t)}return nG(m,l,k,j,i,g,f,b,0,e,a)}function
-jy(a){switch(a[0]){case
+y=o;return y}return nV(m,l,k,j,i,g,f,b,0,e,c,v,u,t)}return nU(m,l,k,j,i,g,f,b,0,e,a)}function
+jH(a){switch(a[0]){case
 9:case
 10:return 0;default:return 1}}function
-jz(t,r,q,p,k,a,f,j){var
-h=jy(a),i=h?l(function(b){var
-a=s(b,bA(fx,f,k),u);return L(a[1],a[2])},j):h;return i?l(function(ao){switch(a[0]){case
+jI(t,s,q,p,k,a,f,j){var
+h=jH(a),i=h?l(function(b){var
+a=r(b,bD(fE,f,k),u);return L(a[1],a[2])},j):h;return i?l(function(ao){switch(a[0]){case
 3:var
 f=[0,a[1],0];break;case
 4:var
-f=df(a[1]);break;case
+f=dl(a[1]);break;case
 5:var
 f=[0,a[1],[0,a[2],0]];break;case
 0:case
@@ -2809,10 +2931,10 @@ f=[0,a[1],[0,a[2],0]];break;case
 2:case
 7:var
 f=0;break;default:return 0}var
-j=c5(0,function(a){switch(a[0]){case
+j=c_(0,function(a){switch(a[0]){case
 0:return[0,[0,d]];case
 1:var
-ad=a[1],ae=al(function(a){return n(ad,a)},ao)?b:d;return[0,[0,ae]];case
+ad=a[1],ae=aj(function(a){return n(ad,a)},ao)?b:d;return[0,[0,ae]];case
 2:var
 af=L(a[1],d)?0:[0,d];return[0,af];case
 3:var
@@ -2842,26 +2964,26 @@ N=f;return N;case
 o=a[1];if(o){var
 O=o[1],g=a[2];if(O){if(g){var
 P=g[1];if(P)return[0,[0,G(O[1],P[1])]];var
-Q=uT}else
+Q=u8}else
 var
 Q=g;return Q}var
-ai=g?uU:g,S=ai}else
+ai=g?u9:g,S=ai}else
 var
 S=o;return S;case
 7:var
 p=a[1];if(p){var
 T=p[1],h=a[2];if(T){if(h)var
-q=h[1],aj=q?[0,[0,aQ(T[1],q[1])]]:q,U=aj;else
+q=h[1],ak=q?[0,[0,aR(T[1],q[1])]]:q,U=ak;else
 var
 U=h;return U}var
-ak=h?uV:h,V=ak}else
+al=h?u_:h,V=al}else
 var
 V=p;return V;case
 8:var
 r=a[1];if(r){var
 W=r[1];if(W){var
 X=W[1];return[0,[0,G(X,X)]]}var
-Y=uW}else
+Y=u$}else
 var
 Y=r;return Y;case
 9:var
@@ -2870,10 +2992,10 @@ t=s[1];if(t){var
 i=t[1],x=aX(i);if(0===x)var
 m=1;else
 if(0<x)var
-m=F(i,b)?0:L(aY(i,aN(2))[2],d)?1:0;else
+m=F(i,b)?0:L(aY(i,aO(2))[2],d)?1:0;else
 var
-y=R(i),m=F(y,b)?0:L(aY(y,aN(2))[2],d)?1:0;var
-am=m?[0,[0,cG(i,c(2,b))]]:m,Z=am}else
+y=R(i),m=F(y,b)?0:L(aY(y,aO(2))[2],d)?1:0;var
+am=m?[0,[0,cK(i,c(2,b))]]:m,Z=am}else
 var
 Z=t;var
 _=Z}else
@@ -2892,91 +3014,91 @@ ac=ab}else
 var
 ac=u;return ac}},t);function
 k(a){return a?a[1]:d}var
-h=e(function(a){return z(k,a)},j),i=l(function(c){var
-a=s(c,h,0),b=a?1:a;return b},p);if(i){var
-m=g(df(q),f),o=g(df(r),m);return l(function(c){var
-a=s(c,h,0);if(a){var
+h=e(function(a){return x(k,a)},j),i=l(function(c){var
+a=r(c,h,0),b=a?1:a;return b},p);if(i){var
+m=g(dl(q),f),o=g(dl(s),m);return l(function(c){var
+a=r(c,h,0);if(a){var
 b=aX(a[1]);return 0===b?1:0<b?0:0}return a},o)}return i},f):i}function
-jA(j,a,i,h,g,f,e,d,c,b){var
-k=cK(fA(i,h,g,c,b),a);return js(j,a,bA(fx,e,f),k,d)}function
-nL(f,d,c,n,m,b,l,q,e,k,j,i,h,a){if(typeof
+jJ(j,a,i,h,g,f,e,d,c,b){var
+k=cO(fH(i,h,g,c,b),a);return jA(j,a,bD(fE,e,f),k,d)}function
+nZ(f,d,c,n,m,b,l,q,e,k,j,i,h,a){if(typeof
 a!=="number"&&11===a[0]){var
-o=a[3],g=a[1],p=jz(d,c,n,m,b,k,g,a[2]);if(p){var
-r=jA(f,d,c,n,m,b,g,e,k,o);return nJ(f,d,c,bA(fx,g,b),l,r,e,j,i,h,o)}return p}return nJ(f,d,c,b,l,q,e,j,i,h,a)}function
-nM(r,q,p,o,m,k,j,i,h,g,d,c,a){if(typeof
+o=a[3],g=a[1],p=jI(d,c,n,m,b,k,g,a[2]);if(p){var
+r=jJ(f,d,c,n,m,b,g,e,k,o);return nX(f,d,c,bD(fE,g,b),l,r,e,j,i,h,o)}return p}return nX(f,d,c,b,l,q,e,j,i,h,a)}function
+n0(r,q,p,o,m,k,j,i,h,g,d,c,a){if(typeof
 a!=="number"&&12===a[0]){var
 b=a[1],s=I(n(f(b),0));if(s){var
-t=V(jo(e(function(a){return a[1][1][1]},b)),b);return l(function(a){var
-b=a[2],e=b[1];return nL(r,q,p,o,m,k,j,i,h,g,d,c,[0,[0,[0,[0,a[1][1],a[1][2]],e[1][2]],e[2]]],b[2])},t)}return s}return nL(r,q,p,o,m,k,j,i,h,g,d,c,0,a)}function
-he(b,a){if(a){var
+t=V(jw(e(function(a){return a[1][1][1]},b)),b);return l(function(a){var
+b=a[2],e=b[1];return nZ(r,q,p,o,m,k,j,i,h,g,d,c,[0,[0,[0,[0,a[1][1],a[1][2]],e[1][2]],e[2]]],b[2])},t)}return s}return nZ(r,q,p,o,m,k,j,i,h,g,d,c,0,a)}function
+hl(b,a){if(a){var
 c=a[2];if(b){var
-e=he(b[1],c);return[0,a[1],e]}var
+e=hl(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-nN(c,b,a){var
+n1(c,b,a){var
 d=V(b,a);return l(function(a){var
 b=h(c,a[1]);return b?b:I(a[2])},d)}function
-fB(m,b,k,a,i,t,o,j,g,Z,q){switch(q[0]){case
+fJ(m,b,k,a,i,t,o,j,g,Z,q){switch(q[0]){case
 0:var
 ae=function(a){return l(I,a)},L=ae,x=q[1];break;case
 1:var
 af=q[4],ag=q[3],ah=q[2],ai=function(c){var
-d=da(ah,g),e=fB(m,b,k,a,i,t,o,j,d[1],c,ag);return e?fB(m,b,k,a,i,t,o,j,d[2],c,af):e},L=ai,x=q[1];break;default:var
+d=dg(ah,g),e=fJ(m,b,k,a,i,t,o,j,d[1],c,ag);return e?fJ(m,b,k,a,i,t,o,j,d[2],c,af):e},L=ai,x=q[1];break;default:var
 aj=q[4],ak=q[3],al=q[2],am=function(c){var
-d=nN(jy,t,c);if(d){var
-e=da(al,j),f=fB(m,b,k,a,i,t,o,e[1],g,c,ak);if(f)return fB(m,b,k,a,i,t,o,e[2],g,c,aj);var
+d=n1(jH,t,c);if(d){var
+e=dg(al,j),f=fJ(m,b,k,a,i,t,o,e[1],g,c,ak);if(f)return fJ(m,b,k,a,i,t,o,e[2],g,c,aj);var
 h=f}else
 var
 h=d;return h},L=am,x=q[1]}if(x){var
-A=js(m,b,j,cK(y(function(e){var
+A=jA(m,b,j,cO(y(function(e){var
 b=e[2],d=0;if(typeof
 b==="number"){if(4!==b)d=1}else
 if(11!==b[0])d=1;if(d){var
-c=E(t,e[1]);return c?fA(k,a,i,c[1],b):c}return 0},x),b),g),w=x,u=Z;for(;;){if(w){var
+c=E(t,e[1]);return c?fH(k,a,i,c[1],b):c}return 0},x),b),g),w=x,u=Z;for(;;){if(w){var
 T=w[1],c=T[2],G=T[1],U=w[2],_=0;if(typeof
 c==="number"&&4===c){var
 B=h(o,g);if(B)var
-aa=B[1],$=ba(f(g)),H=l(function(b){return function(a){return K(aF(a,b)[2],d)}}(aa),$);else
+aa=B[1],$=ba(f(g)),H=l(function(b){return function(a){return K(aH(a,b)[2],d)}}(aa),$);else
 var
 H=B;if(H){var
 w=U,u=e(function(a){return 0},u);continue}var
 v=H}else
 _=1;if(_){var
-W=s(G,u,0);if(W){var
+W=r(G,u,0);if(W){var
 J=E(t,G);if(J){var
 p=J[1],M=0;if(typeof
 c==="number")M=1;else
 switch(c[0]){case
 11:var
-N=c[3],C=c[1],O=jz(b,k,a,i,j,p,C,c[2]);if(O)var
-ab=jA(m,b,k,a,i,j,C,g,p,N),r=nK(m,b,k,a,i,bA(fx,C,j),o,ab,g,p,N);else
+N=c[3],C=c[1],O=jI(b,k,a,i,j,p,C,c[2]);if(O)var
+ab=jJ(m,b,k,a,i,j,C,g,p,N),s=nY(m,b,k,a,i,bD(fE,C,j),o,ab,g,p,N);else
 var
-r=O;break;case
+s=O;break;case
 12:var
 D=c[1],P=I(n(f(D),0));if(P){var
-Q=I(g$(c));if(Q)var
+Q=I(hh(c));if(Q)var
 z=Q;else
 var
 ad=1<p[0]?0:1,z=ad}else
 var
 z=P;if(z)var
-ac=V(jo(e(function(a){return a[1][1][1]},D)),D),r=l(function(C,e){return function(t){var
-u=t[2],d=t[1],v=g$(C),h=u[1],l=h[1][2],n=h[2],c=u[2],p=v?a:k;function
-q(a){return v?ha(a):a}if(typeof
+ac=V(jw(e(function(a){return a[1][1][1]},D)),D),s=l(function(C,e){return function(t){var
+u=t[2],d=t[1],v=hh(C),h=u[1],l=h[1][2],n=h[2],c=u[2],p=v?a:k;function
+q(a){return v?hi(a):a}if(typeof
 c!=="number"&&11===c[0]){var
-r=c[3],f=c[1],s=jz(b,k,a,i,j,e,f,c[2]);if(s){var
-x=q(r),y=d[2],z=d[1],B=jA(m,b,k,a,i,j,f,g,e,r);return nI(m,b,p,a,i,bA(fx,f,j),o,B,g,e,z,y,l,n,x)}return s}var
-w=q(c);return nI(m,b,p,a,i,j,o,A,g,e,d[1],d[2],l,n,w)}}(c,p),ac);else
+r=c[3],f=c[1],s=jI(b,k,a,i,j,e,f,c[2]);if(s){var
+x=q(r),y=d[2],z=d[1],B=jJ(m,b,k,a,i,j,f,g,e,r);return nW(m,b,p,a,i,bD(fE,f,j),o,B,g,e,z,y,l,n,x)}return s}var
+w=q(c);return nW(m,b,p,a,i,j,o,A,g,e,d[1],d[2],l,n,w)}}(c,p),ac);else
 var
-r=z;break;case
+s=z;break;case
 13:if(2===p[0])var
-F=jv(m,c[1],c[2]),R=jf(f(g),F),S=R?nM(m,b,k,a,i,j,o,A,g,p,0,F,c[3]):R,r=S?nM(m,b,k,a,i,j,o,A,g,p,[0,p[1]],F,c[4]):S;else
+F=jD(m,c[1],c[2]),R=jm(f(g),F),S=R?n0(m,b,k,a,i,j,o,A,g,p,0,F,c[3]):R,s=S?n0(m,b,k,a,i,j,o,A,g,p,[0,p[1]],F,c[4]):S;else
 var
-r=0;break;default:M=1}if(M)var
-r=nK(m,b,k,a,i,j,o,A,g,p,c);if(r){var
-w=U,u=he(G,u);continue}var
-X=r}else
+s=0;break;default:M=1}if(M)var
+s=nY(m,b,k,a,i,j,o,A,g,p,c);if(s){var
+w=U,u=hl(G,u);continue}var
+X=s}else
 var
 X=J;var
 Y=X}else
@@ -2987,81 +3109,81 @@ var
 v=[0,u];break}}else
 var
 v=[0,Z];return v?L(v[1]):v}function
-jB(h,g,f,e,d,c,b,a){return function(i,j,k){return fB(h,g,f,e,d,b,a,c,i,j,k)}}function
-jC(a){return e(function(a){return 1},a)}function
-eH(a,d,b,c){function
+jK(h,g,f,e,d,c,b,a){return function(i,j,k){return fJ(h,g,f,e,d,b,a,c,i,j,k)}}function
+jL(a){return e(function(a){return 1},a)}function
+eQ(a,d,b,c){function
 f(d,c){var
 f=V(a[1],b[1]);return e(function(a){var
-b=r(c,a[2]);return B(r(d,a[1]),b)},f)}if(aZ(a[2],b[2])){var
+b=s(c,a[2]);return B(s(d,a[1]),b)},f)}if(a0(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
-h=r(a[2],b[2]),i=r(c,a[2]);return[0,f(r(d,b[2]),i),h]}function
-nO(a){var
+h=s(a[2],b[2]),i=s(c,a[2]);return[0,f(s(d,b[2]),i),h]}function
+n2(a){var
 c=m(b);return[0,e(function(a){return m(d)},a),c]}function
-bf(a,k){var
+bg(a,k){var
 f=k[1];switch(f[0]){case
 1:var
-u=f[1];if(al(function(a){return n(u,a)},a)){var
+u=f[1];if(aj(function(a){return n(u,a)},a)){var
 C=m(b);return[0,e(function(a){var
-c=n(a,u)?b:d;return m(c)},a),C]}return nO(a);case
+c=n(a,u)?b:d;return m(c)},a),C]}return n2(a);case
 3:var
-D=m(b),E=bf(a,f[2]),F=m(b);return eH(bf(a,f[1]),F,E,D);case
+D=m(b),E=bg(a,f[2]),F=m(b);return eQ(bg(a,f[1]),F,E,D);case
 4:var
-G=m(R(b)),H=bf(a,f[2]),I=m(b);return eH(bf(a,f[1]),I,H,G);case
+G=m(R(b)),H=bg(a,f[2]),I=m(b);return eQ(bg(a,f[1]),I,H,G);case
 5:var
-v=bf(a,f[1]),J=v[2];return[0,e(bu,v[1]),J];case
+v=bg(a,f[1]),J=v[2];return[0,e(bx,v[1]),J];case
 6:var
-w=f[2],y=f[1],K=bf(a,w);return eH(bf(a,y),w,K,y);case
+w=f[2],x=f[1],K=bg(a,w);return eQ(bg(a,x),w,K,x);case
 7:var
-z=f[2],L=bu(k),M=bf(a,z),N=m(b),i=eH(bf(a,f[1]),N,M,L),O=i[1];if(l(function(a){return be(d,a)},O))return i;var
-P=r(i[2],z);return[0,i[1],P];case
+y=f[2],L=bx(k),M=bg(a,y),N=m(b),i=eQ(bg(a,f[1]),N,M,L),O=i[1];if(l(function(a){return be(d,a)},O))return i;var
+P=s(i[2],y);return[0,i[1],P];case
 8:var
-A=f[1],B=bf(a,A),Q=B[2],S=B[1],T=r(m(c(2,b)),A);return[0,e(function(a){return r(T,a)},S),Q];case
+A=f[1],B=bg(a,A),Q=B[2],S=B[1],T=s(m(c(2,b)),A);return[0,e(function(a){return s(T,a)},S),Q];case
 9:var
-j=bf(a,f[1]),U=j[1];if(l(function(a){return be(d,a)},U)){var
+j=bg(a,f[1]),U=j[1];if(l(function(a){return be(d,a)},U)){var
 V=m(b);return[0,j[1],V]}var
-W=r(m(c(2,b)),k),X=r(j[2],W);return[0,j[1],X];case
+W=s(m(c(2,b)),k),X=s(j[2],W);return[0,j[1],X];case
 10:var
-o=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,o]],q=[0,[10,1,h,g,o]],Y=x(g,q),Z=bf(a,g),_=x(h,p),$=eH(bf(a,h),_,Z,Y),aa=m(R(b)),ab=bf(a,o),s=eH($,m(c(2,b)),ab,aa),ac=s[1],ad=f[1]?p:bu(q),t=e(function(a){return r(ad,a)},ac);if(l(function(a){return be(d,a)},t))return[0,t,s[2]];var
-ae=r(h,q),af=x(r(g,p),ae),ag=r(m(c(2,b)),af);return[0,t,r(s[2],ag)];default:return nO(a)}}function
-hf(c,a){var
-b=bf(c,a),f=b[1];return e(function(a){return be(d,a)?a:ai(a,b[2])},f)}function
-nP(g){var
+o=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,o]],q=[0,[10,1,h,g,o]],Y=z(g,q),Z=bg(a,g),_=z(h,p),$=eQ(bg(a,h),_,Z,Y),aa=m(R(b)),ab=bg(a,o),r=eQ($,m(c(2,b)),ab,aa),ac=r[1],ad=f[1]?p:bx(q),t=e(function(a){return s(ad,a)},ac);if(l(function(a){return be(d,a)},t))return[0,t,r[2]];var
+ae=s(h,q),af=z(s(g,p),ae),ag=s(m(c(2,b)),af);return[0,t,s(r[2],ag)];default:return n2(a)}}function
+hm(c,a){var
+b=bg(c,a),f=b[1];return e(function(a){return be(d,a)?a:ai(a,b[2])},f)}function
+n3(g){var
 h=g[1],c=h[2],e=h[1];if(0===e[0]){var
 i=e[2],a=e[1];if(F(i,b)){if(0===c[0]){var
 j=c[2],m=c[1];if(F(j,b)){var
-k=L(a,m),l=k?fp(a):k;if(l)var
+k=L(a,m),l=k?fz(a):k;if(l)var
 n=L(g[2],d),f=n||L(a,d);else
 var
 f=l;var
-o=f?[0,a]:f;return o}return L(aY(j,aN(2))[2],d)?0:0}return 0}return L(aY(i,aN(2))[2],d)?0:0}return 0}function
-bM(c,b){var
-a=nP(c);return a?m(a[1]):[0,[1,b]]}function
-co(b,a){if(a)var
-d=co([0,b],a[2]),c=[0,bM(a[1],b),d];else
+o=f?[0,a]:f;return o}return L(aY(j,aO(2))[2],d)?0:0}return 0}return L(aY(i,aO(2))[2],d)?0:0}return 0}function
+bO(c,b){var
+a=n3(c);return a?m(a[1]):[0,[1,b]]}function
+cs(b,a){if(a)var
+d=cs([0,b],a[2]),c=[0,bO(a[1],b),d];else
 var
 c=a;return c}function
-bg(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-hg(b,d,a){switch(a[0]){case
+bh(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+hn(b,d,a){switch(a[0]){case
 0:var
-c=a[1],f=[0,[0,c[4],b],0],h=g(bg(c[3],b),f),i=g(bg(c[2],b),h);return g(bg(c[1],d),i);case
+c=a[1],f=[0,[0,c[4],b],0],h=g(bh(c[3],b),f),i=g(bh(c[2],b),h);return g(bh(c[1],d),i);case
 1:var
-e=a[3],j=e?bg(e[1],d):e,k=g(bg(a[2],b),j);return g(bg(a[1],b),k);default:return bg(a[1],d)}}function
+e=a[3],j=e?bh(e[1],d):e,k=g(bh(a[2],b),j);return g(bh(a[1],b),k);default:return bh(a[1],d)}}function
 am(b,a){var
-c=m(d),e=s(N(u5,a),b,c),f=m(d),g=s(N(u6,a),b,f);return[0,s(a,b,m(d)),g,e]}function
-nQ(b,a){return af(x,af(B,dN,a),b)}function
-hh(c,b,a){if(a){var
-e=a[2],f=hh(c,bz(b),e),h=a[1];return g(hg(c,bJ(d,b),h),f)}return a}function
-jD(g,e,c,j){if(c){var
-b=c[1],v=N(j,f(hg(g,bJ(d,e),b))),w=c[2],x=jD(g,bz(e),w,v),a=co(j,hg(g,bJ(d,e),b));switch(b[0]){case
+c=m(d),e=r(N(vk,a),b,c),f=m(d),g=r(N(vl,a),b,f);return[0,r(a,b,m(d)),g,e]}function
+n4(b,a){return af(z,af(B,dT,a),b)}function
+ho(c,b,a){if(a){var
+e=a[2],f=ho(c,bC(b),e),h=a[1];return g(hn(c,bK(d,b),h),f)}return a}function
+jM(g,e,c,j){if(c){var
+b=c[1],v=N(j,f(hn(g,bK(d,e),b))),w=c[2],x=jM(g,bC(e),w,v),a=cs(j,hn(g,bK(d,e),b));switch(b[0]){case
 0:var
-l=b[1][5],n=s(u7,a,m(d)),o=af(B,dN,am(a,u8)),p=dM(am(a,0)),q=am(a,u9),h=na(nQ(am(a,u_),q),p,o,n,l);break;case
+l=b[1][5],n=r(vm,a,m(d)),o=af(B,dT,am(a,vn)),p=dS(am(a,0)),q=am(a,vo),h=ni(n4(am(a,vp),q),p,o,n,l);break;case
 1:var
-i=b[3],r=i?[0,dM(am(a,u$))]:i,t=af(B,dN,am(a,va)),u=am(a,vb),h=nb(nQ(am(a,0),u),t,r);break;default:var
-h=nc(dN,dM(am(a,0)))}var
+i=b[3],s=i?[0,dS(am(a,vq))]:i,t=af(B,dT,am(a,vr)),u=am(a,vs),h=nj(n4(am(a,0),u),t,s);break;default:var
+h=nk(dT,dS(am(a,0)))}var
 k=[0,h,x]}else
 var
 k=c;return k}function
-b2(c,a){if(typeof
+b6(c,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 h=[5,a[3],a[2]];return[0,[0,h,h],d];case
@@ -3070,7 +3192,7 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[5,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-p=a[3],q=ew(a[2]),l=[2,[2,ew(a[1]),q],p];return[0,[0,l,l],c];case
+p=a[3],q=eD(a[2]),l=[2,[2,eD(a[1]),q],p];return[0,[0,l,l],c];case
 11:var
 m=a[4];return[0,[0,m,m],c];case
 12:var
@@ -3087,41 +3209,41 @@ f=[5,[0,b,b],a[1]];return[0,[0,f,f],d];case
 g=a[2];return[0,[0,g,g],c];default:var
 i=a[1];return[0,[0,i,i],d]}var
 e=[0,d,b];return[0,[0,e,e],d]}function
-fC(b,a){var
+fK(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-eI(c,a){if(0===a[0]){var
-e=[0,d,b],i=g(fC(c,a[5]),[0,[0,[0,e,e],d],0]),f=a[4],h=a[3];return g([0,[0,[0,h,h],c],[0,[0,[0,f,f],c],0]],i)}var
-j=fC(c,a[3]);return g(fC(c,a[2]),j)}function
-dR(b,a){if(typeof
+eR(c,a){if(0===a[0]){var
+e=[0,d,b],i=g(fK(c,a[5]),[0,[0,[0,e,e],d],0]),f=a[4],h=a[3];return g([0,[0,[0,h,h],c],[0,[0,[0,f,f],c],0]],i)}var
+j=fK(c,a[3]);return g(fK(c,a[2]),j)}function
+dY(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-h=eI(b,a[2]);return g(eI(b,a[1]),h);case
+h=eR(b,a[2]);return g(eR(b,a[1]),h);case
 11:var
-i=fC(b,a[3]);return g(fC(b,a[2]),i);case
+i=fK(b,a[3]);return g(fK(b,a[2]),i);case
 12:var
 c=a[3],f=[5,[4,c,c],a[4]];return[0,[0,[0,f,f],b],0];case
 15:var
 j=a[2],k=a[1];return e(function(b){var
 a=[5,j,b];return[0,[0,a,a],d]},k)}return 0}function
-nR(c,b,a){var
-d=f(dR(c,b)),e=N(a[2],d);return[0,[0,a[1]],e]}function
-jE(c,b){if(aZ(b,c))return[0,m(d)];var
+n5(c,b,a){var
+d=f(dY(c,b)),e=N(a[2],d);return[0,[0,a[1]],e]}function
+jN(c,b){if(a0(b,c))return[0,m(d)];var
 a=b[1];if(4===a[0]){var
-e=aZ(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
-nS(y,p,a,o){switch(o[0]){case
+e=a0(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
+n6(x,p,a,o){switch(o[0]){case
 0:var
-i=E(y,o[1]);if(i){var
+i=E(x,o[1]);if(i){var
 j=i[1];if(j){var
-q=j[1],r=q[1],c=r[2],e=r[1],t=q[2],z=am(a,vc),A=af(B,af(x,e,a8(ai(s(vd,a,m(d)),t),c)),z),C=am(a,ve),f=ai(s(0,a,m(d)),t),k=jE(e[1],c[1]);if(k){var
-l=jE(e[2],c[2]);if(l){var
-n=jE(e[3],c[3]);if(n)var
+q=j[1],s=q[1],c=s[2],e=s[1],t=q[2],y=am(a,vt),A=af(B,af(z,e,a8(ai(r(vu,a,m(d)),t),c)),y),C=am(a,vv),f=ai(r(0,a,m(d)),t),k=jN(e[1],c[1]);if(k){var
+l=jN(e[2],c[2]);if(l){var
+n=jN(e[3],c[3]);if(n)var
 w=a8(f,c),g=af(B,[0,k[1],l[1],n[1]],w);else
 var
-g=af(x,e,a8(x(m(b),f),c))}else
+g=af(z,e,a8(z(m(b),f),c))}else
 var
-g=af(x,e,a8(x(m(b),f),c))}else
+g=af(z,e,a8(z(m(b),f),c))}else
 var
-g=af(x,e,a8(x(m(b),f),c));var
+g=af(z,e,a8(z(m(b),f),c));var
 u=[0,[0,af(B,g,C),A]]}else
 var
 u=j;var
@@ -3129,68 +3251,68 @@ v=u}else
 var
 v=i;return v;case
 1:var
-D=am(a,vf);return[0,[0,am(a,0),D]];default:var
-F=h(p,am(a,vg));return[0,[0,h(p,am(a,0)),F]]}}function
-nT(e,d,c,h,g){var
-a=nS(e,d,ao(vh,c),h);if(a)var
-b=nS(e,d,aw(vi,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
+D=am(a,vw);return[0,[0,am(a,0),D]];default:var
+F=h(p,am(a,vx));return[0,[0,h(p,am(a,0)),F]]}}function
+n7(e,d,c,h,g){var
+a=n6(e,d,ao(vy,c),h);if(a)var
+b=n6(e,d,ay(vz,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
 var
 f=a;return f}function
-nU(f,c,d,b,a){var
-h=eI(c,a),i=co(d,g(eI(c,b),h));function
-j(a){return af(B,dN,a)}return nT(e(function(a){var
-b=a[7];return z(function(b){var
-c=c$(a);return[0,[0,b,a[1]],c]},b)},f),j,i,b,a)}function
-dS(d,c,b,a){var
-e=r(c,b);return x(r(d,a),e)}function
-bE(a){return y(function(a){return g(a[1],[0,a[2],0])},a)}function
-nV(b,a){if(b)if(a)var
-d=b[1],e=nV(b[2],a[2]),f=r(d[2],a[1]),c=[0,[0,bL(d[1]),f],e];else
+n8(f,c,d,b,a){var
+h=eR(c,a),i=cs(d,g(eR(c,b),h));function
+j(a){return af(B,dT,a)}return n7(e(function(a){var
+b=a[7];return x(function(b){var
+c=df(a);return[0,[0,b,a[1]],c]},b)},f),j,i,b,a)}function
+dZ(d,c,b,a){var
+e=s(c,b);return z(s(d,a),e)}function
+bF(a){return y(function(a){return g(a[1],[0,a[2],0])},a)}function
+n9(b,a){if(b)if(a)var
+d=b[1],e=n9(b[2],a[2]),f=s(d[2],a[1]),c=[0,[0,bM(d[1]),f],e];else
 var
 c=a;else
 var
 c=b;return c}function
-nW(a){if(a){var
+n_(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=nW(a[2]);if(d)var
-g=d[1],h=ab(c,c),e=[0,[0,[0,bL(c),h],g]];else
+c=b[1],d=n_(a[2]);if(d)var
+g=d[1],h=aa(c,c),e=[0,[0,[0,bM(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return vk}function
-fD(b,d,c,a){if(typeof
+f=b;return f}return vB}function
+fL(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-i=c[1],j=bM(b2(d,a),i);return[0,e(function(a){var
-b=r(a[2],j);return[0,bL(a[1]),b]},b)];case
-9:return nW(b);case
+i=c[1],j=bO(b6(d,a),i);return[0,e(function(a){var
+b=s(a[2],j);return[0,bM(a[1]),b]},b)];case
+9:return n_(b);case
 15:var
 k=f(b),g=n(f(a[1]),k);if(g)var
-l=dR(d,a),h=[0,nV(b,co(c[2],l))];else
+l=dY(d,a),h=[0,n9(b,cs(c[2],l))];else
 var
 h=g;return h}return 0}function
-hi(e,k,j,a){var
-P=j[1],c=bM(b2(k,a),P),u=0;if(typeof
+hp(e,k,j,a){var
+P=j[1],c=bO(b6(k,a),P),u=0;if(typeof
 a==="number")u=1;else
 switch(a[0]){case
 2:var
-Q=function(a){return[0,x(a[4],c),0]},g=Q,f=a[1];break;case
+Q=function(a){return[0,z(a[4],c),0]},g=Q,f=a[1];break;case
 3:var
-R=function(a){return[0,x(c,a[4]),0]},g=R,f=a[1];break;case
+R=function(a){return[0,z(c,a[4]),0]},g=R,f=a[1];break;case
 4:var
 S=function(b){var
-a=b[1],d=W(a[3]),e=W(a[2]),f=W(a[1]),g=b[2];return[0,x(x(x(r(W(c),g),f),e),d),0]},g=S,f=a[1];break;case
+a=b[1],d=W(a[3]),e=W(a[2]),f=W(a[1]),g=b[2];return[0,z(z(z(s(W(c),g),f),e),d),0]},g=S,f=a[1];break;case
 6:var
 T=function(b){var
 a=b[5];if(a)var
-e=W(a[1]),f=r(W(c),e),d=[0,x(b[2],f),0];else
+e=W(a[1]),f=s(W(c),e),d=[0,z(b[2],f),0];else
 var
 d=a;return d},g=T,f=a[1];break;case
 7:if(e){var
 l=e[2];if(l){var
 n=l[2];if(n){if(n[2])return 0;var
-w=n[1],z=l[1],A=e[1],h=w[1],i=z[1],p=A[1],K=dS(i[1],i[2],h[1],h[2]),L=r(p[3],K),M=dS(i[1],i[3],h[1],h[3]),N=r(p[2],M),O=dS(i[2],i[3],h[2],h[3]),v=B(x(r(p[1],O),N),L),U=c$(w),V=c$(z),C=r(r(r(c,c$(A)),V),U),X=[0,bu(B(v,C)),0],D=[0,x(v,C),X]}else
+w=n[1],x=l[1],A=e[1],h=w[1],i=x[1],p=A[1],K=dZ(i[1],i[2],h[1],h[2]),L=s(p[3],K),M=dZ(i[1],i[3],h[1],h[3]),N=s(p[2],M),O=dZ(i[2],i[3],h[2],h[3]),v=B(z(s(p[1],O),N),L),U=df(w),V=df(x),C=s(s(s(c,df(A)),V),U),X=[0,bx(B(v,C)),0],D=[0,z(v,C),X]}else
 var
 D=n;var
 F=D}else
@@ -3200,78 +3322,78 @@ G=F}else
 var
 G=e;return G;case
 10:var
-t=nU(e,k,j[2],a[1],a[2]);if(t){var
-H=t[1],I=H[2],J=H[1];return y(bL,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return t;case
+t=n8(e,k,j[2],a[1],a[2]);if(t){var
+H=t[1],I=H[2],J=H[1];return y(bM,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return t;case
 11:var
 Y=function(d){var
 e=d[7];if(e)var
-n=dR(k,a),f=co(j[2],n),h=am(f,vj),b=af(x,am(f,0),h),i=W(c),l=W(c$(d)),m=ai(W(ab(b,d[1])),l),g=[0,x(x(ab(b,b),m),i),0];else
+n=dY(k,a),f=cs(j[2],n),h=am(f,vA),b=af(z,am(f,0),h),i=W(c),l=W(df(d)),m=ai(W(aa(b,d[1])),l),g=[0,z(z(aa(b,b),m),i),0];else
 var
 g=e;return g},g=Y,f=a[1];break;case
 12:var
 Z=function(e){var
-p=m(d),q=dR(k,a),t=s(0,co(j[2],q),p),f=ai(t,c$(e)),g=e[5];if(g){var
-l=aL(e[2]),h=ai(g[1],l),n=r(h,B(c,r(f,W(h))));return[0,x(m(b),n),0]}var
-i=e[7],o=i?[0,x(x(m(b),c),f),0]:i;return o},g=Z,f=a[1];break;case
+p=m(d),q=dY(k,a),t=r(0,cs(j[2],q),p),f=ai(t,df(e)),g=e[5];if(g){var
+l=aM(e[2]),h=ai(g[1],l),n=s(h,B(c,s(f,W(h))));return[0,z(m(b),n),0]}var
+i=e[7],o=i?[0,z(z(m(b),c),f),0]:i;return o},g=Z,f=a[1];break;case
 8:case
 9:case
 15:var
-q=fD(e,k,j,a);return q?bE(q[1]):q;default:u=1}if(u)return 0;var
+q=fL(e,k,j,a);return q?bF(q[1]):q;default:u=1}if(u)return 0;var
 o=E(e,f);return o?g(o[1]):o}function
-jF(d,b,c,a){if(a){var
-e=a[1],f=a[2],h=jF(d,b,nR(b,e,c),f);return g(hi(d,b,c,e),h)}return a}var
-nX=[0,d,b],nY=[0,[0,nX,nX],d];function
-jG(a){return I(cl(a[1][1],a[1][2]))}function
-hj(a){var
-b=aI(0,f(a));return a6(function(b){return jG(s(b,a,nY))},b)}function
-jH(b,a){var
-c=V(hj(b),a);return a6(function(a){return I(be(d,a[2]))},c)}function
-fE(a,b){return jH(a,hf(hj(a),b))}function
-nZ(b,a){var
+jO(d,b,c,a){if(a){var
+e=a[1],f=a[2],h=jO(d,b,n5(b,e,c),f);return g(hp(d,b,c,e),h)}return a}var
+n$=[0,d,b],oa=[0,[0,n$,n$],d];function
+jP(a){return I(co(a[1][1],a[1][2]))}function
+hq(a){var
+b=aB(0,f(a));return aZ(function(b){return jP(r(b,a,oa))},b)}function
+jQ(b,a){var
+c=V(hq(b),a);return aZ(function(a){return I(be(d,a[2]))},c)}function
+fM(a,b){return jQ(a,hm(hq(a),b))}function
+ob(b,a){var
 c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]}function
-n0(m,l,k,j,i,a){return ad(e(function(e){var
-a=s(e[1],k,nY),f=aQ(a[2],j),g=[4,[0,c(2,b),b],i],d=[5,[3,a[1][2],a[1][1]],g],n=ar(m,[0,[0,d,d],f]);return z(function(a){return[0,a,h(l,e[2])]},n)},a))}function
-n1(f,e,a,d,c,b){return n0(f,e,a,d,c,fE(a,b))}function
-jI(g,f,n,m,l,e,c){var
+oc(m,l,k,j,i,a){return ac(e(function(e){var
+a=r(e[1],k,oa),f=aR(a[2],j),g=[4,[0,c(2,b),b],i],d=[5,[3,a[1][2],a[1][1]],g],n=ar(m,[0,[0,d,d],f]);return x(function(a){return[0,a,h(l,e[2])]},n)},a))}function
+od(f,e,a,d,c,b){return oc(f,e,a,d,c,fM(a,b))}function
+jR(g,f,n,m,l,e,c){var
 i=[5,l,e],a=ar(g,[0,[0,i,i],d]);if(a){var
-b=n1(g,f,n,m,e,c);if(b)var
+b=od(g,f,n,m,e,c);if(b)var
 o=[0,a[1],b[1]],j=[0,[0,h(f,c),o]];else
 var
 j=b;var
 k=j}else
 var
 k=a;return k}function
-n2(c,G,m,al,k,j,o,s){if(s){var
-a=s[1],aH=s[2],aI=n2(c,G,m,al,k,j,nR(j,a,o),aH);if(typeof
+oe(c,G,m,al,k,j,o,s){if(s){var
+a=s[1],aH=s[2],aI=oe(c,G,m,al,k,j,n5(j,a,o),aH);if(typeof
 a==="number")if(0===a)var
 g=[0,[0,u]];else
 var
-an=G[2],ao=G[1],ap=fu(k),g=[0,[8,h(ay(m),ap),ao,an]];else
+an=G[2],ao=G[1],ap=fC(k),g=[0,[8,h(az(m),ap),ao,an]];else
 switch(a[0]){case
 0:var
-aq=ar(c,b2(j,a)),g=z(function(a){return[0,S(c,a)]},aq);break;case
+aq=ar(c,b6(j,a)),g=x(function(a){return[0,S(c,a)]},aq);break;case
 1:var
-as=ar(c,b2(j,a)),g=z(function(a){return[1,S(c,a)]},as);break;case
+as=ar(c,b6(j,a)),g=x(function(a){return[1,S(c,a)]},as);break;case
 5:var
-au=ar(c,b2(j,a)),g=z(function(a){return[2,S(c,a)]},au);break;case
+au=ar(c,b6(j,a)),g=x(function(a){return[2,S(c,a)]},au);break;case
 8:var
-av=fD(k,j,o,a),g=z(function(a){var
-d=J(c,b);return[4,h(ay(m),a),d]},av);break;case
+av=fL(k,j,o,a),g=x(function(a){var
+d=J(c,b);return[4,h(az(m),a),d]},av);break;case
 9:var
-w=fD(k,j,o,a);if(w){var
-x=ar(c,b2(j,a));if(x)var
-aw=S(c,x[1]),ax=w[1],M=[0,[4,h(ay(m),ax),aw]];else
+w=fL(k,j,o,a);if(w){var
+y=ar(c,b6(j,a));if(y)var
+aw=S(c,y[1]),ax=w[1],M=[0,[4,h(az(m),ax),aw]];else
 var
-M=x;var
+M=y;var
 N=M}else
 var
 N=w;var
 g=N;break;case
 10:var
-y=nU(k,j,o[2],a[1],a[2]);if(y){var
-O=y[1],P=O[2],Q=O[1],A=ar(c,b2(j,a));if(A){var
+z=n8(k,j,o[2],a[1],a[2]);if(z){var
+O=z[1],P=O[2],Q=O[1],A=ar(c,b6(j,a));if(A){var
 R=A[1],T=F(d,R[1]);if(T)var
-q=function(a){return nZ(m,a)},az=q(P[2]),aA=q(P[1]),aB=q(Q[2]),U=[0,[6,q(Q[1]),aB,aA,az,R]];else
+q=function(a){return ob(m,a)},ay=q(P[2]),aA=q(P[1]),aB=q(Q[2]),U=[0,[6,q(Q[1]),aB,aA,ay,R]];else
 var
 U=T;var
 V=U}else
@@ -3279,10 +3401,10 @@ var
 V=A;var
 W=V}else
 var
-W=y;var
+W=z;var
 g=W;break;case
 12:var
-r=hi(k,j,o,a),t=0;if(r)if(r[2])var
+r=hp(k,j,o,a),t=0;if(r)if(r[2])var
 g=0;else{var
 X=i(c,0,a[2]),Y=X?i(c,1,a[4]):X;if(Y){var
 B=[0,[3,h(m,r[1])]];t=1}else{var
@@ -3292,14 +3414,14 @@ g=B;break;case
 13:var
 Z=a[1],_=E(k,Z),H=0;if(_){var
 $=i(c,1,a[2]),aa=$?i(c,1,a[3]):$;if(aa)var
-aC=ar(c,b2(j,a)),g=z(function(a){return[7,Z,S(c,a)]},aC);else{var
+aC=ar(c,b6(j,a)),g=x(function(a){return[7,Z,S(c,a)]},aC);else{var
 ab=aa;H=1}}else{var
 ab=_;H=1}if(H)var
 g=ab;break;case
 14:var
-ac=a[2],ae=a[1],af=n(f(k),vl),ag=af?i(c,0,ae):af,ah=ag?i(c,1,ac):ag;if(ah){var
-C=ar(c,b2(j,a));if(C)var
-D=ad(e(function(a){return jI(c,m,al,j,ae,ac,a[4])},k)),aD=D?[0,[9,C[1],D[1]]]:D,ai=aD;else
+ad=a[2],ae=a[1],af=n(f(k),vC),ag=af?i(c,0,ae):af,ah=ag?i(c,1,ad):ag;if(ah){var
+C=ar(c,b6(j,a));if(C)var
+D=ac(e(function(a){return jR(c,m,al,j,ae,ad,a[4])},k)),aD=D?[0,[9,C[1],D[1]]]:D,ai=aD;else
 var
 ai=C;var
 aj=ai}else
@@ -3308,11 +3430,11 @@ aj=ah;var
 g=aj;break;case
 15:var
 aE=[0,a[2],a[1]],aF=1,ak=l(function(a){return i(c,aF,a)},aE);if(ak)var
-aG=fD(k,j,o,a),g=z(function(a){var
-d=J(c,b);return[4,h(ay(m),a),d]},aG);else
+aG=fL(k,j,o,a),g=x(function(a){var
+d=J(c,b);return[4,h(az(m),a),d]},aG);else
 var
 g=ak;break;default:var
-p=hi(k,j,o,a),I=0;if(p){var
+p=hp(k,j,o,a),I=0;if(p){var
 v=p[2],K=p[1];if(v)if(v[2])var
 g=0;else
 var
@@ -3323,19 +3445,19 @@ g=L}var
 am=[0,g,aI]}else
 var
 am=s;return am}function
-vm(a){var
+vD(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
-eJ(a){if(0===a[0])return a[1];var
+eS(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-n3(a,c,g,b){if(0===c[0])return 0;if(b){var
+of(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
-e=d[1],f=b[1],i=c9(a,g,c[1]);if(i){var
-j=c9(a,g,c[2]);if(j){var
-k=c9(a,g,c[3]);if(k)var
-v=i[1],w=cm(f),l=C([0,cm(f),w],v),x=j[1],y=cm(e),m=C([0,cm(e),y],x),z=eE(e),B=[0,eE(e),z],D=[0,t(a,$(A(m,m)),B),0],E=eE(f),F=[0,eE(f),E],G=[0,t(a,$(A(l,l)),F),D],H=S(a,m),I=S(a,l),n=[0,[0,C(C(S(a,k[1]),I),H),u,G]];else
+e=d[1],f=b[1],i=dd(a,g,c[1]);if(i){var
+j=dd(a,g,c[2]);if(j){var
+k=dd(a,g,c[3]);if(k)var
+v=i[1],w=cp(f),l=C([0,cp(f),w],v),x=j[1],y=cp(e),m=C([0,cp(e),y],x),z=eM(e),B=[0,eM(e),z],D=[0,t(a,$(A(m,m)),B),0],E=eM(f),F=[0,eM(f),E],G=[0,t(a,$(A(l,l)),F),D],H=S(a,m),I=S(a,l),n=[0,[0,C(C(S(a,k[1]),I),H),u,G]];else
 var
 n=k;var
 o=n}else
@@ -3353,8 +3475,8 @@ r=d;var
 s=r}else
 var
 s=b;return s}function
-hk(a,p,o){var
-q=bg(p,o),b=e(function(b){return ar(a,b)},q);if(b){var
+hr(a,p,o){var
+q=bh(p,o),b=e(function(b){return ar(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
@@ -3380,149 +3502,149 @@ M(c,b,a){var
 d=as(c,b[3],a[3]),e=as(c,b[2],a[2]);return[0,as(c,b[1],a[1]),e,d]}function
 P(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
 v(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
-aC(a){return P([5,[0,b,b],[6,v(a,a)]],a)}function
-dg(c,b,a){var
-d=bD(c,b[1],a);return d?bD(c,a,b[2]):d}function
-bv(c,b,a){var
-d=dg(c,b[1],a[1]),e=d?dg(c,b[2],a[2]):d;return e?dg(c,b[3],a[3]):e}function
-n4(b,c,a){switch(c[0]){case
+aD(a){return P([5,[0,b,b],[6,v(a,a)]],a)}function
+dm(c,b,a){var
+d=bE(c,b[1],a);return d?bE(c,a,b[2]):d}function
+by(c,b,a){var
+d=dm(c,b[1],a[1]),e=d?dm(c,b[2],a[2]):d;return e?dm(c,b[3],a[3]):e}function
+og(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
-j=a[4],f=a[1],k=bv(b,d[1],f),l=k?i(b,1,v(f,f)):k,m=l?bv(b,d[2],a[2]):l,n=m?bv(b,d[3],a[3]):m,o=n?dg(b,d[4],j):n,p=o?i(b,1,j):o;return p?cE(d[5],a[5]):p}return 0;case
+j=a[4],f=a[1],k=by(b,d[1],f),l=k?i(b,1,v(f,f)):k,m=l?by(b,d[2],a[2]):l,n=m?by(b,d[3],a[3]):m,o=n?dm(b,d[4],j):n,p=o?i(b,1,j):o;return p?cI(d[5],a[5]):p}return 0;case
 1:var
 q=c[3];if(1===a[0]){var
-e=a[3],r=bv(b,c[1],a[1]),s=r?bv(b,c[2],a[2]):r;if(s){if(q){if(e){var
-g=e[1],t=bv(b,q[1],g);if(t)return i(b,1,v(g,g));var
+e=a[3],r=by(b,c[1],a[1]),s=r?by(b,c[2],a[2]):r;if(s){if(q){if(e){var
+g=e[1],t=by(b,q[1],g);if(t)return i(b,1,v(g,g));var
 u=t}else
 var
 u=e;return u}if(e)return 0;var
 w=1}else
 var
 w=s;return w}return 0;default:if(2===a[0]){var
-h=a[1],x=bv(b,c[1],h);return x?i(b,1,v(h,h)):x}return 0}}function
-cR(c,a,b){if(0===a[0])return bv(c,a[1],b);var
-d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=i(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),h=g?i(c,0,d):g;return h?dg(c,a[4],b[3]):h}function
-fF(g,f,i,h){var
+h=a[1],x=by(b,c[1],h);return x?i(b,1,v(h,h)):x}return 0}}function
+cV(c,a,b){if(0===a[0])return by(c,a[1],b);var
+d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=i(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),h=g?i(c,0,d):g;return h?dm(c,a[4],b[3]):h}function
+fN(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=n4(g,b[1],a[1]);if(d){var
+d=og(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
 e=a;var
 c=e}else
 var
-c=a?0:1;return c?cR(g,f[2],h):c}}function
-aP(c,b,a){var
+c=a?0:1;return c?cV(g,f[2],h):c}}function
+aQ(c,b,a){var
 d=M(function(b,a){return[2,b,a]},a,b);return M(function(b,a){return[3,b,a]},d,c)}function
-dT(a,e,d,c){var
-b=aP(e,d,c),f=aC(a),g=P(v(aC(a),b),f);return M(function(b,a){return[3,b,a]},b,g)}function
-b3(f,e,d,a,c){var
-b=dT(f,e,d,c);return[3,[4,a,a],v(b,b)]}function
-cp(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
-b4(a,c){switch(a[0]){case
+d0(a,e,d,c){var
+b=aQ(e,d,c),f=aD(a),g=P(v(aD(a),b),f);return M(function(b,a){return[3,b,a]},b,g)}function
+b7(f,e,d,a,c){var
+b=d0(f,e,d,c);return[3,[4,a,a],v(b,b)]}function
+ct(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
+b8(a,c){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=dT(d,f,e,c),h=b3(d,f,e,a[4],c),i=P([5,[0,b,b],cp(a[5],h)],g),j=aC(d);return M(function(b,a){return[2,b,a]},j,i);case
-1:return aC(aP(a[1],a[2],c));default:return aC(a[1])}}function
-bF(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=d0(d,f,e,c),h=b7(d,f,e,a[4],c),i=P([5,[0,b,b],ct(a[5],h)],g),j=aD(d);return M(function(b,a){return[2,b,a]},j,i);case
+1:return aD(aQ(a[1],a[2],c));default:return aD(a[1])}}function
+bG(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=aC(c),g=b3(c,e,d,a[4],b),h=P(cp(a[5],g),f),i=dT(c,e,d,b);return M(function(b,a){return[2,b,a]},i,h);case
-1:return aP(a[1],a[2],b);default:return aC(a[1])}}function
-cS(a,b){switch(a[0]){case
+d=a[3],e=a[2],c=a[1],f=aD(c),g=b7(c,e,d,a[4],b),h=P(ct(a[5],g),f),i=d0(c,e,d,b);return M(function(b,a){return[2,b,a]},i,h);case
+1:return aQ(a[1],a[2],b);default:return aD(a[1])}}function
+cW(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=b3(e,d,c,a[4],b),i=cp(a[5],h),j=aP(d,c,b);return[3,v(aC(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=b7(e,d,c,a[4],b),i=ct(a[5],h),j=aQ(d,c,b);return[3,v(aD(e),j),i];case
 1:var
-f=a[2],g=a[1],k=aP(g,f,b);return[6,v(aP(g,f,b),k)];default:return v(aC(a[1]),b)}}function
-jJ(a,b){switch(a[0]){case
-0:return[0,b3(a[1],a[2],a[3],a[4],b)];case
+f=a[2],g=a[1],k=aQ(g,f,b);return[6,v(aQ(g,f,b),k)];default:return v(aD(a[1]),b)}}function
+jS(a,b){switch(a[0]){case
+0:return[0,b7(a[1],a[2],a[3],a[4],b)];case
 1:var
-c=a[2],d=a[1],e=aP(d,c,b);return[0,v(aP(d,c,b),e)];default:return 0}}function
-fG(e,c,a){var
+c=a[2],d=a[1],e=aQ(d,c,b);return[0,v(aQ(d,c,b),e)];default:return 0}}function
+fO(e,c,a){var
 f=[0,d,b];return aq(function(b,d){var
-e=v(b4(b,c),a);return[2,[4,v(b4(b,c),a),e],d]},f,e)}function
-n5(f,e,c,a){if(f){if(e){var
-g=e[1],h=n5(f[2],e[2],c,a),i=v(b4(g,c),a),j=[4,v(b4(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
-n6(a){var
+e=v(b8(b,c),a);return[2,[4,v(b8(b,c),a),e],d]},f,e)}function
+oh(f,e,c,a){if(f){if(e){var
+g=e[1],h=oh(f[2],e[2],c,a),i=v(b8(g,c),a),j=[4,v(b8(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
+oi(a){var
 c=a[1];return[0,[0,c[1],b],[0,c[2],b],[0,a[2],b]]}function
-jK(a,c){switch(a[0]){case
+jT(a,c){switch(a[0]){case
 0:return a[4];case
 1:var
-d=a[2],e=a[1],f=aP(e,d,c);return[6,v(aP(e,d,c),f)];default:return[0,b,b]}}function
-n7(d,i){if(d){var
+d=a[2],e=a[1],f=aQ(e,d,c);return[6,v(aQ(e,d,c),f)];default:return[0,b,b]}}function
+oj(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=aP(a[1],a[2],i),k=aC(f),l=P(v(aC(f),g),k),h=[0,M(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=aQ(a[1],a[2],i),k=aD(f),l=P(v(aD(f),g),k),h=[0,M(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=n7(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=oj(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return vn}function
-dh(a){return[0,a[1],a[2],a[3]]}function
-n8(a,b){switch(a[0]){case
+j=b;return j}return vE}function
+dn(a){return[0,a[1],a[2],a[3]]}function
+ok(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=aC(d),j=b3(d,g,c,f,b),k=P(cp(a[5],j),i),l=dT(d,g,c,b),m=M(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,M(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=aD(d),j=b7(d,g,c,f,b),k=P(ct(a[5],j),i),l=d0(d,g,c,b),m=M(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,M(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=aP(a[1],h,b),n=[6,v(e,e)];return[0,[0,[0,M(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-n9(m,e,a){switch(a[0]){case
+h=a[2],e=aQ(a[1],h,b),n=[6,v(e,e)];return[0,[0,[0,M(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
+ol(m,e,a){switch(a[0]){case
 0:var
 n=a[5],c=E(m,a[1]);if(c){var
 d=c[1];if(d)var
 f=d[1],g=f[1],i=f[2],o=g[2],p=g[1],j=function(a){var
-b=dh(n),c=P(a,o),d=M(function(b,a){return[3,b,a]},p,c);return M(function(b,a){return[2,b,a]},d,b)},q=j([5,a[4],i]),k=[0,[0,j([3,[0,b,b],[5,a[3],i]]),q]];else
+b=dn(n),c=P(a,o),d=M(function(b,a){return[3,b,a]},p,c);return M(function(b,a){return[2,b,a]},d,b)},q=j([5,a[4],i]),k=[0,[0,j([3,[0,b,b],[5,a[3],i]]),q]];else
 var
 k=d;var
 l=k}else
 var
 l=c;return l;case
 1:var
-r=dh(a[3]);return[0,[0,dh(a[2]),r]];default:var
-s=h(e,dh(a[3]));return[0,[0,h(e,dh(a[2])),s]]}}function
-n_(d,a,c,b){var
+r=dn(a[3]);return[0,[0,dn(a[2]),r]];default:var
+s=h(e,dn(a[3]));return[0,[0,h(e,dn(a[2])),s]]}}function
+om(d,a,c,b){var
 e=P(a,b),f=P([3,d,a],c);return M(function(b,a){return[2,b,a]},f,e)}function
-n$(a,l,c,k,j,y){var
+on(a,l,c,k,j,y){var
 d=h(l,k);if(d){var
 m=d[1],e=h(l,j);if(e){var
-n=e[1],f=c[1],g=c[2],b=c[3],z=n_(b,g,n[1],n[2]),A=n_(b,f,m[1],m[2]),o=M(function(b,a){return[3,b,a]},A,z),B=ew(j),p=[4,b,[2,[2,ew(k),B],y]],q=i(a,1,b),r=q?i(a,0,f):q,s=r?i(a,0,[3,b,f]):r,t=s?i(a,0,g):s,u=t?i(a,0,[3,b,g]):t;if(u)return i(a,1,[3,[4,p,p],v(o,o)]);var
+n=e[1],f=c[1],g=c[2],b=c[3],z=om(b,g,n[1],n[2]),A=om(b,f,m[1],m[2]),o=M(function(b,a){return[3,b,a]},A,z),B=eD(j),p=[4,b,[2,[2,eD(k),B],y]],q=i(a,1,b),r=q?i(a,0,f):q,s=r?i(a,0,[3,b,f]):r,t=s?i(a,0,g):s,u=t?i(a,0,[3,b,g]):t;if(u)return i(a,1,[3,[4,p,p],v(o,o)]);var
 w=u}else
 var
 w=e;var
 x=w}else
 var
 x=d;return x}function
-oa(d,c,b,a,h,g,f,e){var
+oo(d,c,b,a,h,g,f,e){var
 j=i(d,1,b),k=j?i(d,1,a):j;if(k){var
 l=as(c,f,f),m=[4,[4,a,a],[4,as(c,g,g),l]];return i(d,1,[3,[4,[4,[4,b,b],[4,h,h]],as(c,e,e)],m])}return k}function
-ob(h,g,c,f,y,a){function
+op(h,g,c,f,y,a){function
 T(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],v(f,f)]}var
 O=0;if(typeof
 a==="number")O=1;else
 switch(a[0]){case
 0:var
-aG=fG(g,c,f);return i(h,1,[3,T(a[1]),aG]);case
+aG=fO(g,c,f);return i(h,1,[3,T(a[1]),aG]);case
 1:var
-aH=T(a[1]);return i(h,1,[3,fG(g,c,f),aH]);case
+aH=T(a[1]);return i(h,1,[3,fO(g,c,f),aH]);case
 2:var
-aI=a[2],aJ=function(a){return[3,aI,cS(a,c)]},A=aJ,z=a[1];break;case
+aI=a[2],aJ=function(a){return[3,aI,cW(a,c)]},A=aJ,z=a[1];break;case
 3:var
-aK=a[2],aL=function(a){return[3,cS(a,c),aK]},A=aL,z=a[1];break;case
+aK=a[2],aL=function(a){return[3,cW(a,c),aK]},A=aL,z=a[1];break;case
 4:var
 U=a[3],V=a[2],aM=function(a){var
-b=b4(a,c);return[3,[4,[4,V,V],v(b4(a,c),b)],[4,U,U]]},A=aM,z=a[1];break;case
+b=b8(a,c);return[3,[4,[4,V,V],v(b8(a,c),b)],[4,U,U]]},A=aM,z=a[1];break;case
 5:var
-W=a[1],aN=v(f,f),aO=[4,[4,W,W],[4,fG(g,c,y),aN]],aQ=v(y,y);return i(h,1,[3,[4,fG(g,c,f),aQ],aO]);case
+W=a[1],aN=v(f,f),aO=[4,[4,W,W],[4,fO(g,c,y),aN]],aP=v(y,y);return i(h,1,[3,[4,fO(g,c,f),aP],aO]);case
 6:var
 X=a[2],C=E(g,a[1]);if(C){var
 k=C[1];if(0===k[0]){var
-D=k[4],aR=b3(k[1],k[2],k[3],D,c),Y=cp(k[5],aR);return i(h,1,[3,[4,[4,X,D],[4,X,D]],[4,Y,Y]])}var
+D=k[4],aR=b7(k[1],k[2],k[3],D,c),Y=ct(k[5],aR);return i(h,1,[3,[4,[4,X,D],[4,X,D]],[4,Y,Y]])}var
 Z=0}else
 var
 Z=C;return Z;case
 7:if(g){var
 p=g[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-_=q[1],$=p[1],aa=g[1],aS=jK(_,c),aT=jK($,c),aU=jK(aa,c),ab=[4,[4,[4,a[1],aU],aT],aS],l=bF(_,c),m=bF($,c),aV=bF(aa,c),Q=v(aV,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ac=i(h,1,[3,ab,Q]);if(ac)return i(h,1,[2,ab,Q]);var
+_=q[1],$=p[1],aa=g[1],aS=jT(_,c),aT=jT($,c),aU=jT(aa,c),ab=[4,[4,[4,a[1],aU],aT],aS],l=bG(_,c),m=bG($,c),aV=bG(aa,c),Q=v(aV,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ac=i(h,1,[3,ab,Q]);if(ac)return i(h,1,[2,ab,Q]);var
 ad=ac}else
 var
 ad=q;var
@@ -3533,17 +3655,17 @@ af=ae}else
 var
 af=g;return af;case
 8:var
-aW=fG(g,c,f),aX=v(f,f);return i(h,1,[3,[4,[5,a[2],a[1]],aX],aW]);case
+aW=fO(g,c,f),aX=v(f,f);return i(h,1,[3,[4,[5,a[2],a[1]],aX],aW]);case
 9:var
-ag=a[1],F=n7(g,c);if(F){var
+ag=a[1],F=oj(g,c);if(F){var
 aY=F[1],az=[0,d,b],aA=aq(function(a,b){var
-c=v(aC(a),f);return[2,[4,v(aC(a),f),c],b]},az,aY);return i(h,1,[3,[4,[4,ag,ag],v(f,f)],aA])}return F;case
+c=v(aD(a),f);return[2,[4,v(aD(a),f),c],b]},az,aY);return i(h,1,[3,[4,[4,ag,ag],v(f,f)],aA])}return F;case
 10:var
-aZ=a[3],a0=a[2],a1=a[1],aB=function(b,a){return[2,b,a]},aD=function(a){return M(aB,c,a)},aE=e(function(a){return n8(a,c)},g);return n$(h,function(a){return n9(aE,aD,a)},f,a1,a0,aZ);case
+aZ=a[3],a0=a[2],a1=a[1],aB=function(b,a){return[2,b,a]},aC=function(a){return M(aB,c,a)},aE=e(function(a){return ok(a,c)},g);return on(h,function(a){return ol(aE,aC,a)},f,a1,a0,aZ);case
 11:var
 ah=a[4],G=E(g,a[1]);if(G){var
-H=n8(G[1],c);if(H){var
-n=H[1][1][2],a2=dh(a[3]),a3=dh(a[2]),r=M(function(b,a){return[3,b,a]},a3,a2),ai=i(h,1,v(n,n));if(ai){var
+H=ok(G[1],c);if(H){var
+n=H[1][1][2],a2=dn(a[3]),a3=dn(a[2]),r=M(function(b,a){return[3,b,a]},a3,a2),ai=i(h,1,v(n,n));if(ai){var
 a4=v(n,n),a5=v(r,n),a6=[5,[4,v(r,n),a5],a4];return i(h,1,[3,[4,ah,ah],[3,v(r,r),a6]])}var
 aj=ai}else
 var
@@ -3556,9 +3678,9 @@ o=a[3],s=a[2],I=E(g,a[1]);if(I){var
 j=I[1],al=i(h,0,s),am=al?i(h,0,o):al;if(am){var
 a7=a[4];switch(j[0]){case
 0:var
-w=j[4],x=[5,w,[6,b3(j[1],j[2],j[3],w,c)]],J=[4,x,[2,s,[4,[5,[4,o,o],w],[4,x,x]]]];break;case
+w=j[4],x=[5,w,[6,b7(j[1],j[2],j[3],w,c)]],J=[4,x,[2,s,[4,[5,[4,o,o],w],[4,x,x]]]];break;case
 1:var
-R=j[2],S=j[1],aF=aP(S,R,c),J=[2,s,[5,[4,o,o],[6,v(aP(S,R,c),aF)]]];break;default:var
+R=j[2],S=j[1],aF=aQ(S,R,c),J=[2,s,[5,[4,o,o],[6,v(aQ(S,R,c),aF)]]];break;default:var
 J=s}var
 K=i(h,1,[3,J,a7])}else
 var
@@ -3574,7 +3696,7 @@ t=g[2];if(t){var
 u=t[2];if(u){if(u[2])return 0;var
 ap=u[1],ar=t[1],as=g[1],at=a[1],L=E([0,f[1],[0,f[2],[0,f[3],0]]],at);if(L){var
 N=E([0,as,[0,ar,[0,ap,0]]],at);if(N){var
-au=N[1],a8=bF(au,c),a9=b4(au,c),a_=bF(ap,c),a$=P(f[3],a_),ba=bF(ar,c),bb=P(f[2],ba),bc=bF(as,c),bd=P(f[1],bc),be=M(function(b,a){return[2,b,a]},bd,bb),bf=M(function(b,a){return[2,b,a]},be,a$);return oa(h,v,a[2],a[3],L[1],bf,a9,a8)}var
+au=N[1],a8=bG(au,c),a9=b8(au,c),a_=bG(ap,c),a$=P(f[3],a_),ba=bG(ar,c),bb=P(f[2],ba),bc=bG(as,c),bd=P(f[1],bc),be=M(function(b,a){return[2,b,a]},bd,bb),bf=M(function(b,a){return[2,b,a]},be,a$);return oo(h,v,a[2],a[3],L[1],bf,a9,a8)}var
 av=N}else
 var
 av=L;var
@@ -3588,56 +3710,56 @@ ay=ax}else
 var
 ay=g;return ay;case
 15:var
-bg=n5(a[1],g,c,f),bh=v(f,f);return i(h,1,[3,[4,a[2],bh],bg]);default:O=1}if(O)return 0;var
+bg=oh(a[1],g,c,f),bh=v(f,f);return i(h,1,[3,[4,a[2],bh],bg]);default:O=1}if(O)return 0;var
 B=E(g,z);return B?i(h,1,A(B[1])):B}function
-fH(g,h,f,c,a){var
-m=fF(g,h,f,c);if(m)if(typeof
-a==="number")return 0===a?al(function(e){var
-a=jJ(e,c);return a?i(g,0,[3,[0,d,b],a[1]]):a},f):m6(vo,e(function(b){var
-a=bF(b,c);return[0,a[1],[0,a[2],[0,a[3],0]]]},f));else{if(0===a[0]){var
+fP(g,h,f,c,a){var
+m=fN(g,h,f,c);if(m)if(typeof
+a==="number")return 0===a?aj(function(e){var
+a=jS(e,c);return a?i(g,0,[3,[0,d,b],a[1]]):a},f):nc(vF,e(function(b){var
+a=bG(b,c);return[0,a[1],[0,a[2],[0,a[3],0]]]},f));else{if(0===a[0]){var
 j=E(h[3],a[1]);if(j){var
-p=j[1],q=n6(a[3]);return ob(g,f,c,n6(a[2]),q,p)}return j}var
+p=j[1],q=oi(a[3]);return op(g,f,c,oi(a[2]),q,p)}return j}var
 k=E(h[3],a[1]);if(k){var
 l=E(f,a[2]);if(l){var
-n=l[1],r=k[1],s=b4(n,c);return ob(g,f,c,b4(n,c),s,r)}var
+n=l[1],r=k[1],s=b8(n,c);return op(g,f,c,b8(n,c),s,r)}var
 o=l}else
 var
 o=k;return o}return m}function
-bN(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-oc(a){switch(a[0]){case
+bP(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+oq(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=bN(b[3]),f=bN(b[2]);return[0,bN(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=bP(b[3]),f=bP(b[2]);return[0,bP(b[1]),f,e,d,c];case
 1:var
-g=z(bN,a[3]),h=bN(a[2]);return[1,bN(a[1]),h,g];default:return[2,bN(a[1])]}}function
-jL(a){return 0===a[0]?bN(a[1]):[0,a[1],a[2],a[4][1]]}function
-od(b,a){var
-c=jL(a[2]);return fF(b,a,e(oc,a[1]),c)}function
-jM(b,a,c){var
-d=[0,c,aw(b,a)];return g(ao(b,a),d)}function
-bh(c,a){if(c){if(a){var
-e=bh(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
-oe(e,c,a){if(e){if(c){var
-f=c[1],g=oe(e[2],c[2],a),h=bh(f,a),i=[4,bh(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
-of(b,a){if(b){if(a){var
-c=b[1],e=of(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aT(function(a){return[4,c,a]},h,g,f,e)}var
+g=x(bP,a[3]),h=bP(a[2]);return[1,bP(a[1]),h,g];default:return[2,bP(a[1])]}}function
+jU(a){return 0===a[0]?bP(a[1]):[0,a[1],a[2],a[4][1]]}function
+or(b,a){var
+c=jU(a[2]);return fN(b,a,e(oq,a[1]),c)}function
+jV(b,a,c){var
+d=[0,c,ay(b,a)];return g(ao(b,a),d)}function
+bi(c,a){if(c){if(a){var
+e=bi(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
+os(e,c,a){if(e){if(c){var
+f=c[1],g=os(e[2],c[2],a),h=bi(f,a),i=[4,bi(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
+ot(b,a){if(b){if(a){var
+c=b[1],e=ot(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aU(function(a){return[4,c,a]},h,g,f,e)}var
 d=a}else
 var
 d=b;return d}function
-og(b,c,a){var
-d=[0,c,aw([0,b],a)];return g(ao(b,a),d)}function
-oh(a,b){var
-e=n(a,vp),c=e||n(a,vq),d=c?n(f(b),a):c;return d?l(function(b){return n(f(b),a)},b):d}function
-oi(a){if(a){var
+ou(b,c,a){var
+d=[0,c,ay([0,b],a)];return g(ao(b,a),d)}function
+ov(a,b){var
+e=n(a,vG),c=e||n(a,vH),d=c?n(f(b),a):c;return d?l(function(b){return n(f(b),a)},b):d}function
+ow(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=oi(a[2]);return z(function(a){return[0,c,a]},d)}return b}return vr}function
-hl(a){if(a){var
+c=b[1],d=ow(a[2]);return x(function(a){return[0,c,a]},d)}return b}return vI}function
+hs(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=hl(a[2]);return z(function(a){return[0,c,a]},d)}return b}return vs}function
-oj(a,l,k,f){var
-b=aB(a,l);if(b){var
-c=aB(a,k);if(c){var
-d=c_(a,f);if(d){var
-e=gW(a,f);if(e)var
+c=b[1],d=hs(a[2]);return x(function(a){return[0,c,a]},d)}return b}return vJ}function
+ox(a,l,k,f){var
+b=aC(a,l);if(b){var
+c=aC(a,k);if(c){var
+d=de(a,f);if(d){var
+e=g4(a,f);if(e)var
 m=t(a,b[1],e[1]),g=[0,C(t(a,c[1],d[1]),m)];else
 var
 g=e;var
@@ -3650,21 +3772,21 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-ok(a){return a?K(a[1][2],d):a}function
-bO(a){return a?K(d,a[1][1]):a}function
-ol(d,a){return i(d,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
-om(d,a){if(a){var
-b=aB(d,a[1]);if(b)var
-c=om(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+oy(a){return a?K(a[1][2],d):a}function
+bQ(a){return a?K(d,a[1][1]):a}function
+oz(d,a){return i(d,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
+oA(d,a){if(a){var
+b=aC(d,a[1]);if(b)var
+c=oA(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return vt}function
-hm(d,a){if(a){var
-b=om(d,a[1]);if(b)var
-c=hm(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+e=b;return e}return vK}function
+ht(d,a){if(a){var
+b=oA(d,a[1]);if(b)var
+c=ht(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return vu}function
-on(b,a){return aq(function(c,a){return A(S(b,c),a)},u,a)}function
-oo(b,d){function
+e=b;return e}return vL}function
+oB(b,a){return aq(function(c,a){return A(S(b,c),a)},u,a)}function
+oC(b,d){function
 c(e,d,c,a){var
 f=t(b,d,c);return C(t(b,e,a),f)}if(d){var
 e=d[1];if(e){var
@@ -3680,12 +3802,12 @@ n=m[2];if(n){if(n[2])return u;if(k[2])return u;var
 s=n[1],v=m[1],w=l[1],x=j[1],y=i[1],z=h[1],B=c(z,y,w,v),D=t(b,g[1],B),E=t(b,q,c(z,x,w,s));return A(C(t(b,r,c(y,x,v,s)),E),D)}return u}return u}return u}return u}return u}return u}return u}return u}if(a){var
 o=a[1];if(o){var
 p=o[2];return p?p[2]?u:a[2]?u:c(r,q,o[1],p[1]):u}return u}return u}return u}return u}return u}function
-op(a,p,m,s,g,j){function
-a1(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bh(a,a)]}var
+oD(a,p,m,s,g,j){function
+a1(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bi(a,a)]}var
 bM=m[1];function
 B(c){var
 a=[0,d,b];return aq(function(a,b){var
-d=bh(a,c);return[2,[4,bh(a,c),d],b]},a,bM)}function
+d=bi(a,c);return[2,[4,bi(a,c),d],b]},a,bM)}function
 D(g,e){var
 a=E(m[1],g);if(a){var
 b=a[1],c=n(f(b),p);if(c)return h(e,b);var
@@ -3697,10 +3819,10 @@ b=0;if(typeof
 j==="number")b=1;else
 switch(j[0]){case
 6:var
-a=vv;break;case
+a=vM;break;case
 13:case
 14:var
-a=vw;break;default:b=1}if(b)var
+a=vN;break;default:b=1}if(b)var
 a=p;return n(f(c),a)},g);if(a2){var
 w=0;if(typeof
 j==="number")w=1;else
@@ -3708,10 +3830,10 @@ switch(j[0]){case
 0:if(g){if(g[2])return 0;var
 a4=g[1],bN=B(a4);return i(a,1,[3,a1(j[1],a4),bN])}return g;case
 1:if(g){if(g[2])return 0;var
-a5=g[1],bP=a1(j[1],a5);return i(a,1,[3,B(a5),bP])}return g;case
+a5=g[1],bO=a1(j[1],a5);return i(a,1,[3,B(a5),bO])}return g;case
 2:if(g)return 0;var
-bQ=j[2],bR=function(b){if(typeof
-b!=="number"&&0===b[0])return i(a,1,[3,bQ,b[1]]);return 0},ai=bR,ah=j[1];break;case
+bP=j[2],bR=function(b){if(typeof
+b!=="number"&&0===b[0])return i(a,1,[3,bP,b[1]]);return 0},ai=bR,ah=j[1];break;case
 3:if(g)return 0;var
 bS=j[2],bT=function(b){if(typeof
 b!=="number"&&0===b[0])return i(a,1,[3,b[1],bS]);return 0},ai=bT,ah=j[1];break;case
@@ -3719,16 +3841,16 @@ b!=="number"&&0===b[0])return i(a,1,[3,b[1],bS]);return 0},ai=bT,ah=j[1];break;c
 a6=j[3],a7=j[2],bU=function(d){var
 h=n(s,0);if(typeof
 d!=="number"&&1===d[0]){var
-e=d[2],f=d[1],g=i(a,0,[3,[2,a7,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],a6]);return g?h?ok(oj(a,f,e,a7)):bO(oj(a,f,e,a6)):g}return 0},ai=bU,ah=j[1];break;case
+e=d[2],f=d[1],g=i(a,0,[3,[2,a7,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],a6]);return g?h?oy(ox(a,f,e,a7)):bQ(ox(a,f,e,a6)):g}return 0},ai=bU,ah=j[1];break;case
 5:if(g){var
 F=g[2];if(F){if(F[2])return 0;var
-ak=F[1],al=g[1],a8=j[1],bV=bh(al,al),bW=[4,[4,a8,a8],[4,B(ak),bV]],bX=bh(ak,ak);return i(a,1,[3,[4,B(al),bX],bW])}var
+ak=F[1],al=g[1],a8=j[1],bV=bi(al,al),bW=[4,[4,a8,a8],[4,B(ak),bV]],bX=bi(ak,ak);return i(a,1,[3,[4,B(al),bX],bW])}var
 a9=F}else
 var
 a9=g;return a9;case
 6:var
 a_=j[2],bY=j[3],bZ=function(b){var
-c=[5,bY,a_],d=i(a,1,a_);return d?i(a,1,[3,bh(b,b),[4,c,c]]):d},a$=D(j[1],bZ);if(a$){if(m[4]){if(g){var
+c=[5,bY,a_],d=i(a,1,a_);return d?i(a,1,[3,bi(b,b),[4,c,c]]):d},a$=D(j[1],bZ);if(a$){if(m[4]){if(g){var
 G=g[1];if(G){if(G[2])return 0;if(g[2])return 0;var
 ba=G[1];return i(a,1,[4,ba,ba])}var
 bb=G}else
@@ -3738,32 +3860,32 @@ bc=1}else
 var
 bc=a$;return bc;case
 7:if(g){if(g[2])return 0;var
-bd=g[1],am=j[1],b0=j[3],b1=j[2],an=hl(m[7]);if(an){var
+bd=g[1],am=j[1],b0=j[3],b1=j[2],an=hs(m[7]);if(an){var
 H=an[1],ao=E(bd,am);if(ao){var
 b2=ao[1],be=n(f(H),p),bf=be?l(function(a){return n(f(a),p)},H):be;if(bf){var
 ap=E(H,am);if(ap){var
-b3=ap[1];return D(am,function(b){return oa(a,bh,b1,b0,b2,of(bd,H),b,b3)})}var
+b3=ap[1];return D(am,function(b){return oo(a,bi,b1,b0,b2,ot(bd,H),b,b3)})}var
 bg=ap}else
 var
 bg=bf;var
-bi=bg}else
+bh=bg}else
 var
-bi=ao;var
-bj=bi}else
+bh=ao;var
+bj=bh}else
 var
 bj=an;var
 bk=bj}else
 var
 bk=g;return bk;case
 8:if(g){if(g[2])return 0;var
-ar=g[1],b4=oe(j[1],m[1],ar),b5=bh(ar,ar);return i(a,1,[3,[4,j[2],b5],b4])}return g;case
+ar=g[1],b4=os(j[1],m[1],ar),b5=bi(ar,ar);return i(a,1,[3,[4,j[2],b5],b4])}return g;case
 9:if(g)return 0;var
 bl=j[3],bm=j[2],b6=function(e){var
 f=i(a,1,bm),g=f?i(a,0,bl):f;if(g){var
-b=aB(a,bh(e,e));if(b){var
-c=aB(a,[5,bl,bm]);if(c){var
-d=i$(a,c[1]);if(d){var
-l=S(a,d[1]);return bO([0,C(b[1],l)])}var
+b=aC(a,bi(e,e));if(b){var
+c=aC(a,[5,bl,bm]);if(c){var
+d=jg(a,c[1]);if(d){var
+l=S(a,d[1]);return bQ([0,C(b[1],l)])}var
 h=d}else
 var
 h=c;var
@@ -3778,11 +3900,11 @@ b7=j[2],b8=function(b){var
 c=[4,b7,b[3]],d=i(a,1,c);return d?i(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},bo=b8,bn=j[1];w=2;break;case
 11:if(g)return 0;var
 b9=j[2],b_=function(e){var
-b=c_(a,b9);if(b){var
-c=aB(a,e[3]);if(c){var
-d=aB(a,e[2]);if(d){var
-f=t(a,b[1],c[1]),g=bO([0,f]);if(g){var
-k=S(a,d[1]);return bO([0,C(S(a,f),k)])}var
+b=de(a,b9);if(b){var
+c=aC(a,e[3]);if(c){var
+d=aC(a,e[2]);if(d){var
+f=t(a,b[1],c[1]),g=bQ([0,f]);if(g){var
+k=S(a,d[1]);return bQ([0,C(S(a,f),k)])}var
 h=g}else
 var
 h=d;var
@@ -3793,8 +3915,8 @@ j=i}else
 var
 j=b;return j},bo=b_,bn=j[1];w=2;break;case
 12:if(g)return 0;var
-au=oi(m[3]);if(au){var
-bq=au[1],b$=j[1],br=bA(function(b,a){return[4,b,a[3]]},bq,b$),av=e(function(a){return a[1]},bq),x=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(av){var
+au=ow(m[3]);if(au){var
+bq=au[1],b$=j[1],br=bD(function(b,a){return[4,b,a[3]]},bq,b$),av=e(function(a){return a[1]},bq),x=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(av){var
 O=av[1];if(O){var
 P=O[2];if(P){var
 Q=P[2],aD=P[1],aE=O[1],o=av[2];if(Q)if(Q[2]||!o)var
@@ -3842,16 +3964,16 @@ bt=au;return bt;case
 ca=j[2],aw=E(m[4],j[1]);if(aw){var
 ax=aw[1];if(ax){var
 bu=function(a){if(ca){var
-c=h(m[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=h(m[5],a);return M(function(b,a){return[3,b,a]},e,c)}return a},I=j[4],u=bu(dh(j[3])),J=ax[1][1][2],r=v(J,u);if(ol(a,I)){if(s){if(s[1])return 0;if(g){var
+c=h(m[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=h(m[5],a);return M(function(b,a){return[3,b,a]},e,c)}return a},I=j[4],u=bu(dn(j[3])),J=ax[1][1][2],r=v(J,u);if(oz(a,I)){if(s){if(s[1])return 0;if(g){var
 y=g[1];if(y){var
 z=y[2];if(z){var
 A=z[2];if(A){if(A[2])return 0;if(g[2])return 0;var
 aa=bu([0,y[1],z[1],A[1]]),aL=v(J,aa),aM=i(a,1,r);if(aM){var
-ab=c_(a,I);if(ab){var
-aN=ab[1],ac=aB(a,[4,v(u,u),[4,aL,aL]]);if(ac){var
-ad=aB(a,[4,[4,r,r],v(aa,aa)]);if(ad){var
-aO=bO([0,aN]);if(aO){var
-bI=ad[1],bJ=ac[1];return bO([0,C(t(a,S(a,aN),bJ),bI)])}var
+ab=de(a,I);if(ab){var
+aN=ab[1],ac=aC(a,[4,v(u,u),[4,aL,aL]]);if(ac){var
+ad=aC(a,[4,[4,r,r],v(aa,aa)]);if(ad){var
+aO=bQ([0,aN]);if(aO){var
+bI=ad[1],bJ=ac[1];return bQ([0,C(t(a,S(a,aN),bJ),bI)])}var
 aP=aO}else
 var
 aP=ad;var
@@ -3877,10 +3999,10 @@ aW=aV}else
 var
 aW=g;return aW}return g?0:i(a,1,[3,[0,d,b],r])}if(s)return 0;if(g)return 0;var
 aX=i(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],I]);if(aX){var
-ae=c_(a,I);if(ae){var
-af=aB(a,r);if(af){var
-bK=v(J,J),ag=aB(a,[6,[4,v(u,u),bK]]);if(ag){var
-bL=t(a,ae[1],ag[1]);return ok([0,C(af[1],bL)])}var
+ae=de(a,I);if(ae){var
+af=aC(a,r);if(af){var
+bK=v(J,J),ag=aC(a,[6,[4,v(u,u),bK]]);if(ag){var
+bL=t(a,ae[1],ag[1]);return oy([0,C(af[1],bL)])}var
 aY=ag}else
 var
 aY=af;var
@@ -3897,7 +4019,7 @@ bv=aw;return bv;case
 K=g[1];if(K){var
 L=K[2];if(L){var
 N=L[2];if(N){if(N[2])return 0;if(g[2])return 0;var
-cb=j[3],cc=j[2],cd=j[1],ce=[0,K[1],L[1],N[1]],cf=m[5],cg=m[4];return n$(a,function(a){return n9(cg,cf,a)},ce,cd,cc,cb)}var
+cb=j[3],cc=j[2],cd=j[1],ce=[0,K[1],L[1],N[1]],cf=m[5],cg=m[4];return on(a,function(a){return ol(cg,cf,a)},ce,cd,cc,cb)}var
 bw=N}else
 var
 bw=L;var
@@ -3908,21 +4030,21 @@ by=bx}else
 var
 by=g;return by;case
 17:if(g)return 0;var
-bz=j[2],ay=j[1],ch=j[3],az=hl(m[7]);if(az){var
-aA=az[1],bB=oh(p,aA),bC=bB?n(f(bz),p):bB;if(bC){var
-aC=E(aA,ay);if(aC){var
-ci=aC[1];return D(ay,function(x){var
-e=hm(a,aA);if(e){var
-j=e[1],f=hm(a,[0,bz,[0,x,[0,ci,0]]]);if(f){var
+bz=j[2],ay=j[1],ch=j[3],az=hs(m[7]);if(az){var
+aA=az[1],bA=ov(p,aA),bB=bA?n(f(bz),p):bA;if(bB){var
+aB=E(aA,ay);if(aB){var
+ci=aB[1];return D(ay,function(x){var
+e=ht(a,aA);if(e){var
+j=e[1],f=ht(a,[0,bz,[0,x,[0,ci,0]]]);if(f){var
 b=f[1];if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){if(d[2])return 0;var
-g=aB(a,ch);if(g){var
-k=g[1],l=S(a,oo(a,j)),h=oo(a,og(ay,b[1],j)),m=bO([0,k]),o=m?bO([0,l]):m;if(o)var
-y=n(s,0)?h:$(h),i=bO([0,y]);else
+g=aC(a,ch);if(g){var
+k=g[1],l=S(a,oC(a,j)),h=oC(a,ou(ay,b[1],j)),m=bQ([0,k]),o=m?bQ([0,l]):m;if(o)var
+y=n(s,0)?h:$(h),i=bQ([0,y]);else
 var
 i=o;if(i){var
-z=on(a,c[1]),A=t(a,t(a,S(a,k),l),z),B=on(a,d[1]);return bO([0,C(t(a,S(a,h),B),A)])}var
+z=oB(a,c[1]),A=t(a,t(a,S(a,k),l),z),B=oB(a,d[1]);return bQ([0,C(t(a,S(a,h),B),A)])}var
 p=i}else
 var
 p=g;var
@@ -3941,10 +4063,10 @@ v=f;var
 w=v}else
 var
 w=e;return w})}var
-bD=aC}else
+bC=aB}else
 var
-bD=bC;var
-bE=bD}else
+bC=bB;var
+bE=bC}else
 var
 bE=az;return bE;default:w=1}switch(w){case
 1:var
@@ -3958,83 +4080,83 @@ bp=as;return bp;default:var
 aj=E(m[2],ah);return aj?ai(aj[1]):aj}}else
 var
 a3=a2;return a3}function
-fI(d,f,a){if(typeof
+fQ(d,f,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-e=a[4];if(ol(d,e)&&I(i(d,0,[3,e,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])))return vz;return vA;case
+e=a[4];if(oz(d,e)&&I(i(d,0,[3,e,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])))return vQ;return vR;case
 16:return f;case
 4:case
-17:return vy}return vx}function
-dU(e,d,g,f){var
+17:return vP}return vO}function
+d1(e,d,g,f){var
 b=g,a=f;for(;;){if(a){var
-c=a[1];if(aE(b,fI(e,d,c)))return[0,[0,c,b]];var
-h=a[2],b=dE(b,fI(e,d,c)),a=h;continue}return a}}function
-fJ(a){return e(function(a){return[0,a,b]},a)}function
-jN(f,o,g,c,n,a){if(typeof
+c=a[1];if(aF(b,fQ(e,d,c)))return[0,[0,c,b]];var
+h=a[2],b=dJ(b,fQ(e,d,c)),a=h;continue}return a}}function
+fR(a){return e(function(a){return[0,a,b]},a)}function
+jW(f,o,g,c,n,a){if(typeof
 a==="number"){if(0===a){var
-s=c[6];return al(function(a){return i(f,0,[3,[0,d,b],a])},s)}var
-h=hl(c[7]);return h?m6(g,h[1]):h}else{if(0===a[0]){var
-j=dU(f,o,a[1],n);if(j){var
-p=j[1],t=p[1],u=e(fJ,a[2]);return op(f,g,c,p[2],u,t)}return j}var
-k=dU(f,o,a[1],n);if(k){var
+s=c[6];return aj(function(a){return i(f,0,[3,[0,d,b],a])},s)}var
+h=hs(c[7]);return h?nc(g,h[1]):h}else{if(0===a[0]){var
+j=d1(f,o,a[1],n);if(j){var
+p=j[1],t=p[1],u=e(fR,a[2]);return oD(f,g,c,p[2],u,t)}return j}var
+k=d1(f,o,a[1],n);if(k){var
 q=k[1],l=q[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=E(c[1],a[2]);return m?op(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
+m=E(c[1],a[2]);return m?oD(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
 r=0}else
 var
 r=k;return r}}function
-jO(a){var
-b=aC(a[1]),c=P(v(b,a[2]),b),d=a[2];return M(function(b,a){return[3,b,a]},d,c)}function
-eK(a){return aC(jO(a))}function
-fK(c){var
-a=eK(c),b=aC(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-hn(a,b){return aP(a[3],a[4],b)}function
-fL(a,b){var
-c=hn(a,b);return v(eK(a),c)}function
-fM(a,b){var
-c=hn(a,b);return v(fK(a),c)}function
-oq(a,b){var
-c=hn(a,b);return v(aC(a[1]),c)}function
-ho(b,a){var
-c=fM(b,a),d=fL(b,a);return[2,[4,d,d],[4,c,c]]}function
-fN(a,d){var
-h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=oq(a,d);return[5,[2,ho(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-jP(a,b){var
-f=a[5],c=[3,fN(a,b),f],d=oq(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-dV(a,b){var
-c=jP(a,b);return cp(a[7],c)}function
-jQ(b,a){var
-c=ho(b,a),d=fM(b,a),e=[4,dV(b,a),d],f=fL(b,a);return[5,[2,[4,fN(b,a),f],e],c]}function
-jR(b,a){var
-c=ho(b,a),d=fL(b,a),e=[4,dV(b,a),d],f=fM(b,a);return[5,[3,[4,fN(b,a),f],e],c]}function
-jS(a,b){var
-c=fK(a),d=P(jR(a,b),c),e=eK(a),f=P(jQ(a,b),e),g=M(function(b,a){return[2,b,a]},f,d),h=P(a[5],g),i=a[3];return M(function(b,a){return[2,b,a]},i,h)}function
-jT(a,c){var
-d=jS(a,c),e=a[4],f=M(function(b,a){return[2,b,a]},c,e),g=M(function(b,a){return[3,b,a]},f,d),h=dV(a,c);return P([5,[0,b,b],[4,a[5],h]],g)}function
-dW(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
-dX(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
-jU(a,c,b){var
-d=[4,dW(a),b],e=[2,[4,dX(a),c],d],f=[4,dX(a),b];return[0,[3,[4,dW(a),c],f],e]}function
-or(c,a){var
-b=jU(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-cq(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-os(a,d){var
-e=v(a,a),f=cq(a,d),g=P([0,c(2,b),b],f),h=v(a,d),i=P([4,[0,c(2,b),b],h],a),j=P([3,[0,b,b],e],d),k=M(function(b,a){return[2,b,a]},j,i);return P([5,[0,b,b],[2,[0,b,b],e]],M(function(b,a){return[2,b,a]},k,g))}function
-di(j,b,a){switch(j[0]){case
-0:return b?b[2]?a:or(b[1],a):a;case
+jX(a){var
+b=aD(a[1]),c=P(v(b,a[2]),b),d=a[2];return M(function(b,a){return[3,b,a]},d,c)}function
+eT(a){return aD(jX(a))}function
+fS(c){var
+a=eT(c),b=aD(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+hu(a,b){return aQ(a[3],a[4],b)}function
+fT(a,b){var
+c=hu(a,b);return v(eT(a),c)}function
+fU(a,b){var
+c=hu(a,b);return v(fS(a),c)}function
+oE(a,b){var
+c=hu(a,b);return v(aD(a[1]),c)}function
+hv(b,a){var
+c=fU(b,a),d=fT(b,a);return[2,[4,d,d],[4,c,c]]}function
+fV(a,d){var
+h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=oE(a,d);return[5,[2,hv(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+jY(a,b){var
+f=a[5],c=[3,fV(a,b),f],d=oE(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+d2(a,b){var
+c=jY(a,b);return ct(a[7],c)}function
+jZ(b,a){var
+c=hv(b,a),d=fU(b,a),e=[4,d2(b,a),d],f=fT(b,a);return[5,[2,[4,fV(b,a),f],e],c]}function
+j0(b,a){var
+c=hv(b,a),d=fT(b,a),e=[4,d2(b,a),d],f=fU(b,a);return[5,[3,[4,fV(b,a),f],e],c]}function
+j1(a,b){var
+c=fS(a),d=P(j0(a,b),c),e=eT(a),f=P(jZ(a,b),e),g=M(function(b,a){return[2,b,a]},f,d),h=P(a[5],g),i=a[3];return M(function(b,a){return[2,b,a]},i,h)}function
+j2(a,c){var
+d=j1(a,c),e=a[4],f=M(function(b,a){return[2,b,a]},c,e),g=M(function(b,a){return[3,b,a]},f,d),h=d2(a,c);return P([5,[0,b,b],[4,a[5],h]],g)}function
+d3(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
+d4(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
+j3(a,c,b){var
+d=[4,d3(a),b],e=[2,[4,d4(a),c],d],f=[4,d4(a),b];return[0,[3,[4,d3(a),c],f],e]}function
+oF(c,a){var
+b=j3(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+cu(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+oG(a,d){var
+e=v(a,a),f=cu(a,d),g=P([0,c(2,b),b],f),h=v(a,d),i=P([4,[0,c(2,b),b],h],a),j=P([3,[0,b,b],e],d),k=M(function(b,a){return[2,b,a]},j,i);return P([5,[0,b,b],[2,[0,b,b],e]],M(function(b,a){return[2,b,a]},k,g))}function
+dp(j,b,a){switch(j[0]){case
+0:return b?b[2]?a:oF(b[1],a):a;case
 1:if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){if(d[2])return a;var
-g=jU(b[1],a[2],a[3]),i=g[1],h=jU(c[1],g[2],a[1]);return or(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
+g=j3(b[1],a[2],a[3]),i=g[1],h=j3(c[1],g[2],a[1]);return oF(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
 e=b[2];if(e){var
-f=e[2];return f?f[2]?a:os([0,b[1],e[1],f[1]],a):a}return a}return a}}function
-ot(c){var
-a=cO(c);return a?ev(a[1],[0,d,b]):a}function
-ou(a,n,k,j){if(ot(j)){var
+f=e[2];return f?f[2]?a:oG([0,b[1],e[1],f[1]],a):a}return a}return a}}function
+oH(c){var
+a=cR(c);return a?eC(a[1],[0,d,b]):a}function
+oI(a,n,k,j){if(oH(j)){var
 q=n?[3,[0,d,b],k]:k;return i(a,0,q)}var
-f=aB(a,k);if(f){var
-g=c_(a,[5,j,[0,c(2,b),b]]);if(g){var
-h=gW(a,[5,j,[0,c(2,b),b]]);if(h)var
+f=aC(a,k);if(f){var
+g=de(a,[5,j,[0,c(2,b),b]]);if(g){var
+h=g4(a,[5,j,[0,c(2,b),b]]);if(h)var
 p=t(a,f[1],g[1]),l=[0,C(h[1],p)];else
 var
 l=h;var
@@ -4045,24 +4167,24 @@ e=m}else
 var
 e=f;if(e){var
 o=e[1];return n?F(d,o[1]):F(o[2],d)}return e}function
-dY(b,a,c){var
-d=bD(b,a[1],a[2]),e=d?ou(b,0,c,a[1]):d;return e?ou(b,1,c,a[2]):e}function
-ov(h,f,c){if(ot(c))return[0,u];var
-a=G(h,i_(f)),d=c_(a,c);if(d){var
-e=gW(a,c);if(e){var
-i=e[1],j=d[1],k=b0(a,A(J(a,b),j));return z(function(b){return mR(f,t(a,i,b))},k)}var
+d5(b,a,c){var
+d=bE(b,a[1],a[2]),e=d?oI(b,0,c,a[1]):d;return e?oI(b,1,c,a[2]):e}function
+oJ(h,f,c){if(oH(c))return[0,u];var
+a=G(h,jf(f)),d=de(a,c);if(d){var
+e=g4(a,c);if(e){var
+i=e[1],j=d[1],k=b2(a,A(J(a,b),j));return x(function(b){return mZ(f,t(a,i,b))},k)}var
 g=e}else
 var
 g=d;return g}function
-cr(a){return function(b){return ov(a,d,b)}}function
-cs(d,a){var
+cv(a){return function(b){return oJ(a,d,b)}}function
+cw(d,a){var
 e=i(d,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]);return e?i(d,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
-dj(a){return[0,[3,[0,d,b],a],a]}function
-ow(a,c,o,n){var
-i=bD(a,[0,d,b],c),j=i?cs(a,c):i;if(j){var
-e=h(cr(a),c);if(e){var
-f=aB(a,o);if(f){var
-g=aB(a,n);if(g){var
+dq(a){return[0,[3,[0,d,b],a],a]}function
+oK(a,c,o,n){var
+i=bE(a,[0,d,b],c),j=i?cw(a,c):i;if(j){var
+e=h(cv(a),c);if(e){var
+f=aC(a,o);if(f){var
+g=aC(a,n);if(g){var
 p=f[1],q=g[1];return F(d,C(t(a,S(a,e[1]),q),p)[1])}var
 k=g}else
 var
@@ -4073,12 +4195,12 @@ l=e;var
 m=l}else
 var
 m=j;return m}function
-fO(d,c,a){switch(c[0]){case
-0:return a?a[2]?0:dY(d,c[1],a[1]):a;case
+fW(d,c,a){switch(c[0]){case
+0:return a?a[2]?0:d5(d,c[1],a[1]):a;case
 1:if(a){var
 e=a[2];if(e){var
 f=e[2];if(f){if(f[2])return 0;var
-l=dY(d,c[1],a[1]),m=l?dY(d,c[2],e[1]):l;if(m)return dY(d,c[3],f[1]);var
+l=d5(d,c[1],a[1]),m=l?d5(d,c[2],e[1]):l;if(m)return d5(d,c[3],f[1]);var
 n=m}else
 var
 n=f;var
@@ -4091,7 +4213,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],C=v([0,s,r,q],[0,s,r,q]);return ow(d,c[1],C,[0,b,b])}var
+q=h[1],r=g[1],s=a[1],C=v([0,s,r,q],[0,s,r,q]);return oK(d,c[1],C,[0,b,b])}var
 t=h}else
 var
 t=g;var
@@ -4100,7 +4222,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],w=i[1],x=a[1],y=ow(d,c[1],[2,[4,x,x],[4,w,w]],[2,[0,b,b],[4,k,k]]);if(y)return dY(d,dj(c[2]),k);var
+k=j[1],w=i[1],x=a[1],y=oK(d,c[1],[2,[4,x,x],[4,w,w]],[2,[0,b,b],[4,k,k]]);if(y)return d5(d,dq(c[2]),k);var
 z=y}else
 var
 z=j;var
@@ -4111,75 +4233,75 @@ B=A}else
 var
 B=a;return B}}var
 j=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
-bP(b){var
+bR(b){var
 a=aq(function(f,e){var
-a=aB(j,f);if(a)var
-b=a[1],c=bs(cC(b[1]),cC(b[2]));else
+a=aC(j,f);if(a)var
+b=a[1],c=bv(cG(b[1]),cG(b[2]));else
 var
-c=d;return bs(c,e)},d,b);return K(d,a)?aQ(mr(a),j):d}function
-eL(a){return[0,a[1],[0,a[2],0]]}function
-bi(a){var
-b=eL(a[3]),c=g(eL(a[2]),b);return g(eL(a[1]),c)}function
-hp(a){return hk(j,a,bP(bi(a)))}function
-ox(b,a){if(a){var
-g=ox([0,b],a[2]),c=a[1];if(0===c[0])var
-d=c[1],e=bM([0,[0,d,d],c[2]],b);else
+c=d;return bv(c,e)},d,b);return K(d,a)?aR(mA(a),j):d}function
+eU(a){return[0,a[1],[0,a[2],0]]}function
+bj(a){var
+b=eU(a[3]),c=g(eU(a[2]),b);return g(eU(a[1]),c)}function
+hw(a){return hr(j,a,bR(bj(a)))}function
+oL(b,a){if(a){var
+g=oL([0,b],a[2]),c=a[1];if(0===c[0])var
+d=c[1],e=bO([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-oy(c,b,a){var
-d=ew(b);return[2,[2,ew(c),d],a]}function
-hq(b,a){return b?R(a):d}function
-fP(h,c,a){if(typeof
+oM(c,b,a){var
+d=eD(b);return[2,[2,eD(c),d],a]}function
+hx(b,a){return b?R(a):d}function
+fX(h,c,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 l=a[3],m=a[2];return[0,[2,m],[0,[3,m],[0,[2,l],[0,[3,l],0]]]];case
 6:return[0,[0,[5,a[3],a[2]],d],0];case
 8:var
 s=a[2],t=a[1];return e(function(a){var
-b=hq(h,c);return[0,[5,s,a],G(hq(h,c),b)]},t);case
+b=hx(h,c);return[0,[5,s,a],G(hx(h,c),b)]},t);case
 9:return[0,[1,[5,a[3],a[2]],R(c)],0];case
 10:return[0,[0,a[2],d],0];case
 11:return[0,[2,a[2]],0];case
 12:return[0,[0,a[1],d],0];case
 13:var
-f=a[3],k=bP([0,f[1],[0,f[2],[0,f[3],0]]]);return[0,[2,a[4]],[0,[0,f[1],k],[0,[0,f[2],k],[0,[0,f[3],k],0]]]];case
+f=a[3],k=bR([0,f[1],[0,f[2],[0,f[3],0]]]);return[0,[2,a[4]],[0,[0,f[1],k],[0,[0,f[2],k],[0,[0,f[3],k],0]]]];case
 14:var
-n=a[2],o=a[1],u=eI(c,n),v=g(eI(c,o),u),w=e(function(a){return[0,a[1][2],a[2]]},v);return[0,[0,oy(o,n,a[3]),c],w];case
+n=a[2],o=a[1],u=eR(c,n),v=g(eR(c,o),u),w=e(function(a){return[0,a[1][2],a[2]]},v);return[0,[0,oM(o,n,a[3]),c],w];case
 15:var
 i=a[4],j=a[3],p=a[2];return h?[0,[0,[5,p,i],c],[0,[0,[5,[4,j,j],i],G(c,c)],[0,[1,[0,b,b],d],0]]]:[0,[0,[5,p,i],d],[0,[0,[5,[4,j,j],i],c],0]];case
 16:var
-q=a[2],r=bP([0,q,0]);return[0,[4,a[3],aQ(r,c)],[0,[0,q,r],0]];case
+q=a[2],r=bR([0,q,0]);return[0,[4,a[3],aR(r,c)],[0,[0,q,r],0]];case
 17:var
-x=a[3],y=a[2];return e(function(a){return[0,[5,a,x],hq(h,c)]},y);case
+x=a[3],y=a[2];return e(function(a){return[0,[5,a,x],hx(h,c)]},y);case
 2:case
 3:return[0,[0,a[2],c],0]}return 0}function
-dk(h,c,b,e,a){if(a){var
-d=a[1],i=a[2],j=dk(h,c,b,N(e,f(fP(c,b,d))),i);return g(as(h,ox(e,fP(c,b,d)),d),j)}return a}function
-hr(b,a){var
+dr(h,c,b,e,a){if(a){var
+d=a[1],i=a[2],j=dr(h,c,b,N(e,f(fX(c,b,d))),i);return g(as(h,oL(e,fX(c,b,d)),d),j)}return a}function
+hy(b,a){var
 c=V(b,a);return e(function(a){var
-b=r(a[1][2],a[2]);return[0,a[1][1],b]},c)}function
-hs(b,a){switch(a[0]){case
+b=s(a[1][2],a[2]);return[0,a[1][1],b]},c)}function
+hz(b,a){switch(a[0]){case
 0:var
 d=a[1];return ar(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=ar(b,[0,[0,e,e],a[2]]);return c?i$(b,c[1]):c;case
-2:return c_(b,a[1]);case
-3:return gW(b,a[1]);default:var
-f=a[1],g=cs(b,f);return g?ov(b,a[2],f):g}}function
-bG(a){return 1===a?vB:vC}function
-b5(d,c,b,a){var
-e=a[1],f=di(d,c,a[2]),g=M(function(b,a){return[2,b,a]},b,f);return M(function(b,a){return[3,b,a]},g,e)}function
-jV(c,b,a){switch(c){case
+e=a[1],c=ar(b,[0,[0,e,e],a[2]]);return c?jg(b,c[1]):c;case
+2:return de(b,a[1]);case
+3:return g4(b,a[1]);default:var
+f=a[1],g=cw(b,f);return g?oJ(b,a[2],f):g}}function
+bH(a){return 1===a?vS:vT}function
+b9(d,c,b,a){var
+e=a[1],f=dp(d,c,a[2]),g=M(function(b,a){return[2,b,a]},b,f);return M(function(b,a){return[3,b,a]},g,e)}function
+j4(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-jW(h,g,d,c,f,a){var
-e=b5(d,c,f,a);return jV(h,e,P([5,[0,b,b],g],cq(di(d,c,a[2]),e)))}function
-eM(c,d,n,m,l){var
+j5(h,g,d,c,f,a){var
+e=b9(d,c,f,a);return j4(h,e,P([5,[0,b,b],g],cu(dp(d,c,a[2]),e)))}function
+eV(c,d,n,m,l){var
 b=d[2],a=n;for(;;){if(b){if(a){var
-f=a[1],g=b[1],h=bv(c,g[1],f[1]),i=h?bv(c,g[2],f[2]):h;if(i){var
+f=a[1],g=b[1],h=by(c,g[1],f[1]),i=h?by(c,g[2],f[2]):h;if(i){var
 b=b[2],a=a[2];continue}var
 j=i}else
 var
@@ -4187,11 +4309,11 @@ j=a;var
 e=j}else
 var
 e=a?0:1;var
-k=e?cR(c,d[4],m):e;return k?fO(c,d[5],l):k}}function
-bH(b,d){var
+k=e?cV(c,d[4],m):e;return k?fW(c,d[5],l):k}}function
+bI(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,N(b,c[1])]]:[0,ci(function(a){return bH(b,a)},a)]}return[0,ci(function(a){return bH(b,a)},a)]}function
-dZ(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,N(b,c[1])]]:[0,b3(function(a){return bI(b,a)},a)]}return[0,b3(function(a){return bI(b,a)},a)]}function
+d6(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
@@ -4203,28 +4325,28 @@ e=a[1],f=I(n(e,b));return f?I(n(e,N(d,b))):f;case
 8:case
 9:var
 c=a[1];continue;default:var
-g=dZ(d,b,a[1]);if(g){var
+g=d6(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-eN(c,b,m){var
+eW(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=dZ(c,b,g),i=h?eN(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=d6(c,b,g),i=h?eW(c,b,f):h;if(i)var
 j=i;else{var
-k=eN(c,b,g);if(k)return dZ(c,b,f);var
+k=eW(c,b,g);if(k)return d6(c,b,f);var
 j=k}return j;case
 7:var
-l=eN(c,b,a[1]);return l?dZ(c,b,a[2]):l;case
+l=eW(c,b,a[1]);return l?d6(c,b,a[2]):l;case
 10:return 0;case
 3:case
 4:var
-e=eN(c,b,a[1]);if(e){var
+e=eW(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return dZ(c,b,a[1]);default:return 1}}}function
-cT(c,e){var
+9:return d6(c,b,a[1]);default:return 1}}}function
+cX(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
 0:return I(n(a[1],c));case
@@ -4235,32 +4357,32 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=cT(c,a[1]);if(d){var
+d=cX(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-ht(d,b,m){var
+hA(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=ht(d,b,a[1]);if(f){var
+f=hA(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=ht(d,b,a[1]);return g?cT(b,a[2]):g;case
+g=hA(d,b,a[1]);return g?cX(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=cT(b,i);if(j){var
-k=cT(b,h);if(k)var
+h=a[2],i=a[1],j=cX(b,i);if(j){var
+k=cX(b,h);if(k)var
 e=k;else{var
-l=aZ(i,d);if(l){var
+l=a0(i,d);if(l){var
 c=h;continue}var
 e=l}}else
 var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return cT(b,c)}}}function
-hu(c,e){var
+2:return 1;default:return cX(b,c)}}}function
+hB(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return aE(a[1],c);case
+0:return aF(a[1],c);case
 10:return 0;case
 1:case
 2:return 1;case
@@ -4268,82 +4390,82 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=hu(c,a[1]);if(d){var
+d=hB(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-hv(a,h){if(a){var
-b=a[2],c=a[1],d=mD(h);if(d){var
-e=d[1],f=e[2];return e[1]?[0,c,hv(b,aq(mG,f,mF(c)))]:[0,vF,hv(b,f)]}var
-g=[0,c,hv(b,0)]}else
+hC(a,h){if(a){var
+b=a[2],c=a[1],d=mM(h);if(d){var
+e=d[1],f=e[2];return e[1]?[0,c,hC(b,aq(mP,f,mO(c)))]:[0,vW,hC(b,f)]}var
+g=[0,c,hC(b,0)]}else
 var
 g=a;return g}function
-dl(b,a){return a?h(b,a[1]):a}function
-dm(c,b,a){return dl(function(b){return dl(h(c,b),a)},b)}function
-oz(b,a){switch(a[0]){case
+ds(b,a){return a?h(b,a[1]):a}function
+dt(c,b,a){return ds(function(b){return ds(h(c,b),a)},b)}function
+oN(b,a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 c=a[3],d=a[2],e=a[1];switch(b){case
 0:return e;case
 1:return d;default:return c}}}function
-oA(a){return 0===a[0]?a[1]:0}function
-oB(d,c){var
+oO(a){return 0===a[0]?a[1]:0}function
+oP(d,c){var
 b=d,a=c;for(;;){if(a){var
-e=a[2],b=oz(a[1],b),a=e;continue}return oA(b)}}function
-ct(b,a){switch(a[0]){case
+e=a[2],b=oN(a[1],b),a=e;continue}return oO(b)}}function
+cx(b,a){switch(a[0]){case
 0:return[0,h(b,a[1])];case
-1:return[1,ct(b,a[1])];default:var
-c=ct(b,a[3]),d=ct(b,a[2]);return[2,ct(b,a[1]),d,c]}}function
-bw(b,c,a){switch(c[0]){case
-0:return ct(h(b,c[1]),a);case
+1:return[1,cx(b,a[1])];default:var
+c=cx(b,a[3]),d=cx(b,a[2]);return[2,cx(b,a[1]),d,c]}}function
+bz(b,c,a){switch(c[0]){case
+0:return cx(h(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-k=a[1];return[1,ct(function(a){return as(b,a,k)},d)];case
-1:return[1,bw(b,d,a[1])];default:var
-l=bw(b,d,a[3]),m=bw(b,d,a[2]);return[2,bw(b,d,a[1]),m,l]}default:var
+k=a[1];return[1,cx(function(a){return as(b,a,k)},d)];case
+1:return[1,bz(b,d,a[1])];default:var
+l=bz(b,d,a[3]),m=bz(b,d,a[2]);return[2,bz(b,d,a[1]),m,l]}default:var
 e=c[3],f=c[2],g=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return as(b,a,n)},i=function(a){return ct(o,a)},p=i(e),q=i(f);return[2,i(g),q,p];case
+n=a[1],o=function(a){return as(b,a,n)},i=function(a){return cx(o,a)},p=i(e),q=i(f);return[2,i(g),q,p];case
 1:var
-j=a[1],r=bw(b,e,j),s=bw(b,f,j);return[2,bw(b,g,j),s,r];default:var
-t=bw(b,e,a[3]),u=bw(b,f,a[2]);return[2,bw(b,g,a[1]),u,t]}}}function
-jX(c,f,a){if(a)var
+j=a[1],r=bz(b,e,j),s=bz(b,f,j);return[2,bz(b,g,j),s,r];default:var
+t=bz(b,e,a[3]),u=bz(b,f,a[2]);return[2,bz(b,g,a[1]),u,t]}}}function
+j6(c,f,a){if(a)var
 d=a[1],b=function(i){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(i){case
 0:var
 e=[0,a,S(c,a)];break;case
 1:var
-g=t(c,a,b),e=[0,ax(A(a,b)),g];break;default:var
-e=[0,b,S(c,b)]}return[0,[0,h(f,e)]]},i=jX(c,f,a[2]),j=e(function(a){return[1,a]},i),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
+g=t(c,a,b),e=[0,au(A(a,b)),g];break;default:var
+e=[0,b,S(c,b)]}return[0,[0,h(f,e)]]},i=j6(c,f,a[2]),j=e(function(a){return[1,a]},i),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
 var
 g=a;return g}function
-jY(b,x,c,a){var
-d=jX(b,aH,a),y=g(jX(b,aA,a),d);return c5(vH,function(a){switch(a[0]){case
-0:return s(a[1],y,[0,[0,u]]);case
-1:return[0,[0,s(a[1],x,u)]];case
+j7(b,y,c,a){var
+d=j6(b,aJ,a),z=g(j6(b,at,a),d);return c_(vY,function(a){switch(a[0]){case
+0:return r(a[1],z,[0,[0,u]]);case
+1:return[0,[0,r(a[1],y,u)]];case
 2:return[0,[0,J(b,a[1])]];case
 3:var
-c=a[2],d=a[1],e=function(b,a){return[0,A(b,a)]};return bw(function(a,b){return dm(e,a,b)},d,c);case
+c=a[2],d=a[1],e=function(b,a){return[0,A(b,a)]};return bz(function(a,b){return dt(e,a,b)},d,c);case
 4:var
-f=a[2],g=a[1],h=function(b,a){return[0,C(b,a)]};return bw(function(a,b){return dm(h,a,b)},g,f);case
+f=a[2],g=a[1],h=function(b,a){return[0,C(b,a)]};return bz(function(a,b){return dt(h,a,b)},g,f);case
 5:var
-i=a[1],j=function(a){return[0,$(a)]};return ct(function(a){return dl(j,a)},i);case
+i=a[1],j=function(a){return[0,$(a)]};return cx(function(a){return ds(j,a)},i);case
 6:var
-k=a[2],l=a[1],m=function(c,a){return[0,t(b,c,a)]};return bw(function(a,b){return dm(m,a,b)},l,k);case
+k=a[2],l=a[1],m=function(c,a){return[0,t(b,c,a)]};return bz(function(a,b){return dt(m,a,b)},l,k);case
 7:var
 n=a[2],o=a[1],p=function(c,a){var
-d=b0(b,a);return z(function(a){return t(b,c,a)},d)};return bw(function(a,b){return dm(p,a,b)},o,n);case
+d=b2(b,a);return x(function(a){return t(b,c,a)},d)};return bz(function(a,b){return dt(p,a,b)},o,n);case
 8:var
-q=a[1],r=function(a){return[0,S(b,a)]};return ct(function(a){return dl(r,a)},q);case
+q=a[1],s=function(a){return[0,S(b,a)]};return cx(function(a){return ds(s,a)},q);case
 9:var
-v=a[1],w=function(a){return cg(b,a)};return ct(function(a){return dl(w,a)},v);default:return vG}},c)}function
-hw(a){if(a){var
+v=a[1],w=function(a){return ck(b,a)};return cx(function(a){return ds(w,a)},v);default:return vX}},c)}function
+hD(a){if(a){var
 b=a[1];if(b)var
-c=hw(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=hD(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return vI}function
-eO(a){if(a){var
-g=a[1],b=g[2],c=hw(g[1]);if(c)if(b){var
-h=b[1],e=eO(a[2]);if(e)var
+d=b;return d}return vZ}function
+eX(a){if(a){var
+g=a[1],b=g[2],c=hD(g[1]);if(c)if(b){var
+h=b[1],e=eX(a[2]);if(e)var
 i=K(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
@@ -4351,56 +4473,56 @@ f=j}else
 var
 f=b;else
 var
-f=c;return f}return vJ}function
-eP(b,a){var
-c=a[3],d=z(function(a){var
-c=a[2],d=a[1][2];return[0,[0,h(b,a[1][1]),d],c]},c),e=h(b,a[2]),f=a[1];return[0,h(ay(b),f),e,d]}function
-jZ(c,g,f,b,a,e){if(b){var
+f=c;return f}return v0}function
+eY(b,a){var
+c=a[3],d=x(function(a){var
+c=a[2],d=a[1][2];return[0,[0,h(b,a[1][1]),d],c]},c),e=h(b,a[2]),f=a[1];return[0,h(az(b),f),e,d]}function
+j8(c,g,f,b,a,e){if(b){var
 h=b[1],l=b[2],d=function(b,a){var
-d=ij(c,fl,fl,function(a){return oz(b,a)},e);return jZ(c,g,aS(f),l,a,d)},i=d(0,aQ(a,h));if(i){var
+d=gp(c,fv,fv,function(a){return oN(b,a)},e);return j8(c,g,aT(f),l,a,d)},i=d(0,aR(a,h));if(i){var
 j=d(2,G(a,h));if(j)return f?1:d(1,a);var
 k=j}else
 var
-k=i;return k}return as(g,a,ij(c,fl,fl,oA,e))}function
-j0(e,c,b,a){var
-f=ac(d,b);function
-g(b){return a}return function(a){return jZ(e,g,c,f,d,a)}}function
-dn(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return z(function(a){return aR(f,e,a)},d)}return[0,u]}function
-oC(f,e,k,j,i,a){var
-b=eO(a[1]);if(b){var
+k=i;return k}return as(g,a,gp(c,fv,fv,oO,e))}function
+j9(e,c,b,a){var
+f=ab(d,b);function
+g(b){return a}return function(a){return j8(e,g,c,f,d,a)}}function
+du(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return x(function(a){return aS(f,e,a)},d)}return[0,u]}function
+oQ(f,e,k,j,i,a){var
+b=eX(a[1]);if(b){var
 c=a[2];if(c){var
-d=dn(a[3]);if(d){var
-l=d[1],m=ac([0,C($(t(f,i,c[1])),l),0],e);return a0(f,e,gY(k,j,b[1],m))}var
+d=du(a[3]);if(d){var
+l=d[1],m=ab([0,C($(t(f,i,c[1])),l),0],e);return a1(f,e,g6(k,j,b[1],m))}var
 g=d}else
 var
 g=c;var
 h=g}else
 var
 h=b;return h}function
-oD(i,d,h,g,c){var
-a=eO(c[1]);if(a){var
-b=dn(c[3]);if(b){var
-j=ac([0,C(u,b[1]),0],d),k=a[1];return a0(i,d,gY(h,g,e(function(a){return[0,a[1],u]},k),j))}var
+oR(i,d,h,g,c){var
+a=eX(c[1]);if(a){var
+b=du(c[3]);if(b){var
+j=ab([0,C(u,b[1]),0],d),k=a[1];return a1(i,d,g6(h,g,e(function(a){return[0,a[1],u]},k),j))}var
 f=b}else
 var
 f=a;return f}function
-oE(a,c,E,i){var
-j=eO(i[1]);if(j){var
+oS(a,c,E,i){var
+j=eX(i[1]);if(j){var
 k=i[2];if(k){var
-l=dn(i[3]);if(l){var
+l=du(i[3]);if(l){var
 F=l[1],e=C(t(a,E,k[1]),F),b=j[1];if(b){var
 m=b[1],o=m[2];if(b[2]){var
-g=gZ(a,b,ac([0,e,0],c));if(g){var
-p=g[1],q=n(f(p),c);if(q)return eB(a,p);var
+g=g7(a,b,ab([0,e,0],c));if(g){var
+p=g[1],q=n(f(p),c);if(q)return eJ(a,p);var
 r=q}else
 var
 r=g;return r}var
 s=K(d,e[1]),u=s?K(d,o[1]):s;if(u){var
 A=D(e[1],o[1]),B=m[1];return K(aq(function(a,b){var
-c=bK(a);return G(D(bK(a),c),b)},d,B),A)}return u}var
-h=gZ(a,b,ac([0,e,0],c));if(h){var
-v=h[1],w=n(f(v),c);if(w)return eB(a,v);var
+c=bL(a);return G(D(bL(a),c),b)},d,B),A)}return u}var
+h=g7(a,b,ab([0,e,0],c));if(h){var
+v=h[1],w=n(f(v),c);if(w)return eJ(a,v);var
 x=w}else
 var
 x=h;return x}var
@@ -4410,183 +4532,183 @@ y=k;var
 z=y}else
 var
 z=j;return z}function
-vK(c){var
+v1(c){var
 a=c[2];if(a){var
-b=dn(c[3]);if(b)return F(d,C(a[1],b[1])[1]);var
+b=du(c[3]);if(b)return F(d,C(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-j1(a){return y(function(a){return g(a[1],[0,a[2],0])},a)}function
-oF(a,c,b){var
-e=s(b,c,m(d)),f=aI(0,a);return l(function(b){return eN(a,b,e)},f)}function
-fQ(a){var
+j_(a){return y(function(a){return g(a[1],[0,a[2],0])},a)}function
+oT(a,c,b){var
+e=r(b,c,m(d)),f=aB(0,a);return l(function(b){return eW(a,b,e)},f)}function
+fY(a){var
 c=W(a);return B(m(b),c)}function
-hx(i,g){var
-h=fQ(g),j=W(g),e=x(m(b),j),f=r(m(c(2,b)),g),a=m(d);return i?i[1]?[0,[0,e,bu(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bu(f),a,e]]:[0,[0,h,a,a],[0,a,e,bu(f)],[0,a,f,e]]}function
-fR(b,a){var
-c=ab(b[3],a),d=ab(b[2],a);return[0,ab(b[1],a),d,c]}function
-oG(b,a){function
+hE(i,g){var
+h=fY(g),j=W(g),e=z(m(b),j),f=s(m(c(2,b)),g),a=m(d);return i?i[1]?[0,[0,e,bx(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bx(f),a,e]]:[0,[0,h,a,a],[0,a,e,bx(f)],[0,a,f,e]]}function
+fZ(b,a){var
+c=aa(b[3],a),d=aa(b[2],a);return[0,aa(b[1],a),d,c]}function
+oU(b,a){function
 c(b){var
 c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]}function
 d(a){var
-b=ab(a,c(function(a){return a[3]})),d=ab(a,c(function(a){return a[2]}));return[0,ab(a,c(function(a){return a[1]})),d,b]}var
+b=aa(a,c(function(a){return a[3]})),d=aa(a,c(function(a){return a[2]}));return[0,aa(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-oH(v,u){function
+oV(v,u){function
 a(a){return[0,[0,N(u,a)]]}switch(v[0]){case
 0:var
-w=fQ(a(0));return[0,hx(vL,a(0)),w];case
+w=fY(a(0));return[0,hE(v2,a(0)),w];case
 1:var
-y=fQ(a(0)),z=r(fQ(a(vM)),y),A=r(fQ(a(vN)),z),C=hx(0,a(0)),D=oG(hx(vP,a(vO)),C);return[0,oG(hx(vR,a(vQ)),D),A];default:var
-E=a(vS),F=a(vT),g=[0,a(0),F,E],G=ab(g,g),H=B(m(b),G),j=ab(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
-d=W(a),e=r(m(c(2,b)),d);return B(x(m(b),j),e)},h=function(f,e,d,a){var
-g=as(f,r(e,d),a);return r(m(c(2,b)),g)},k=i(f),l=h(B,e,f,d),n=[0,h(x,d,f,e),l,k],o=h(x,e,f,d),p=i(e),q=[0,h(B,d,e,f),p,o],s=h(B,d,f,e),t=h(x,d,e,f);return[0,[0,[0,i(d),t,s],q,n],H]}}function
-oI(a){return 1<a[0]?[0,a[1],0]:0}function
-hy(a){switch(a[0]){case
+x=fY(a(0)),y=s(fY(a(v3)),x),A=s(fY(a(v4)),y),C=hE(0,a(0)),D=oU(hE(v6,a(v5)),C);return[0,oU(hE(v8,a(v7)),D),A];default:var
+E=a(v9),F=a(v_),g=[0,a(0),F,E],G=aa(g,g),H=B(m(b),G),j=aa(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+d=W(a),e=s(m(c(2,b)),d);return B(z(m(b),j),e)},h=function(f,e,d,a){var
+g=as(f,s(e,d),a);return s(m(c(2,b)),g)},k=i(f),l=h(B,e,f,d),n=[0,h(z,d,f,e),l,k],o=h(z,e,f,d),p=i(e),q=[0,h(B,d,e,f),p,o],r=h(B,d,f,e),t=h(z,d,e,f);return[0,[0,[0,i(d),t,r],q,n],H]}}function
+oW(a){return 1<a[0]?[0,a[1],0]:0}function
+hF(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,dj(a[1]),0];default:var
-b=[0,dj(a[2]),0];return[0,dj(a[1]),b]}}function
-eQ(a){return[0,[0,a[1]],[0,a[2]]]}function
-oJ(a){switch(a[0]){case
-0:return[0,eQ(a[1]),0];case
+2:return[0,dq(a[1]),0];default:var
+b=[0,dq(a[2]),0];return[0,dq(a[1]),b]}}function
+eZ(a){return[0,[0,a[1]],[0,a[2]]]}function
+oX(a){switch(a[0]){case
+0:return[0,eZ(a[1]),0];case
 1:var
-f=[0,eQ(a[3]),0],g=[0,eQ(a[2]),f];return[0,eQ(a[1]),g];case
+f=[0,eZ(a[3]),0],g=[0,eZ(a[2]),f];return[0,eZ(a[1]),g];case
 2:var
-b=eQ(dj(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
-c=a[2],d=a[1],e=[0,[1,dj(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,eQ(dj(c)),0]]]}}function
-oK(a,c){if(0===c[0]){var
-g=c[1];return h(cr(a),g)}var
-i=c[1],d=h(cr(a),i);if(d){var
-j=c[2],e=h(cr(a),j);if(e){var
-k=S(a,e[1]),l=cg(a,A(J(a,b),k)),m=d[1];return z(function(b){return t(a,m,b)},l)}var
+b=eZ(dq(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
+c=a[2],d=a[1],e=[0,[1,dq(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,eZ(dq(c)),0]]]}}function
+oY(a,c){if(0===c[0]){var
+g=c[1];return h(cv(a),g)}var
+i=c[1],d=h(cv(a),i);if(d){var
+j=c[2],e=h(cv(a),j);if(e){var
+k=S(a,e[1]),l=ck(a,A(J(a,b),k)),m=d[1];return x(function(b){return t(a,m,b)},l)}var
 f=e}else
 var
 f=d;return f}function
-oL(d,c){var
-a=oK(d,c[1]);if(a)var
-b=oK(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+oZ(d,c){var
+a=oY(d,c[1]);if(a)var
+b=oY(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-j2(a,e,c){var
+j$(a,e,c){var
 b=c[1];if(1===b[0]){var
-f=b[1];if(aE(f,a))return c;var
-g=m(d);return s(dE(f,a),e,g)}return[0,ci(function(b){return j2(a,e,b)},b)]}function
-hz(g,a,n,f,c){var
-h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=hf(h,c),j=bL(f),b=e(function(b){return j2(a,j,b)},i),k=s(vY,b,m(d)),l=s(vZ,b,m(d));return[0,s(0,b,m(d)),l,k]}function
-bp(b,a){var
-c=r(b[2],a[1]),d=x(r(b[1],a[2]),c),e=r(b[1],a[3]),f=x(r(b[3],a[1]),e),g=r(b[3],a[2]);return[0,x(r(b[2],a[3]),g),f,d]}function
-d0(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
-j3(c){function
+f=b[1];if(aF(f,a))return c;var
+g=m(d);return r(dJ(f,a),e,g)}return[0,b3(function(b){return j$(a,e,b)},b)]}function
+hG(g,a,n,f,c){var
+h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=hm(h,c),j=bM(f),b=e(function(b){return j$(a,j,b)},i),k=r(wd,b,m(d)),l=r(we,b,m(d));return[0,r(0,b,m(d)),l,k]}function
+bs(b,a){var
+c=s(b[2],a[1]),d=z(s(b[1],a[2]),c),e=s(b[1],a[3]),f=z(s(b[3],a[1]),e),g=s(b[3],a[2]);return[0,z(s(b[2],a[3]),g),f,d]}function
+d7(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
+ka(c){function
 a(a){var
 e=n(c,a)?b:d;return m(e)}var
-e=a(v0),f=a(v1);return[0,a(0),f,e]}function
-oM(e,d,c){function
-b(a){return[0,j3(a),0]}function
-a(a){return[0,bo(bp(j3(a),d),c),[0,a]]}switch(e){case
+e=a(wf),f=a(wg);return[0,a(0),f,e]}function
+o0(e,d,c){function
+b(a){return[0,ka(a),0]}function
+a(a){return[0,bp(bs(ka(a),d),c),[0,a]]}switch(e){case
 0:var
-f=[0,a(v2),0],g=[0,b(v3),f];return[0,b(0),g];case
+f=[0,a(wh),0],g=[0,b(wi),f];return[0,b(0),g];case
 1:var
-h=[0,a(v4),0],i=[0,a(v5),h],j=[0,a(0),i],k=[0,b(v6),j],l=[0,b(v7),k];return[0,b(0),l];default:var
-m=[0,a(v8),0],n=[0,a(v9),m];return[0,a(0),n]}}function
-oN(a,g,f,y,o,l){var
+h=[0,a(wj),0],i=[0,a(wk),h],j=[0,a(0),i],k=[0,b(wl),j],l=[0,b(wm),k];return[0,b(0),l];default:var
+m=[0,a(wn),0],n=[0,a(wo),m];return[0,a(0),n]}}function
+o1(a,g,f,x,o,l){var
 h=l[1];function
 e(c,b){var
-e=h[3],f=d0(b,a[3]),g=r(B(c[3],f),e),i=h[2],j=d0(b,a[2]),k=r(B(c[2],j),i),l=h[1],n=d0(b,a[1]),o=r(B(c[1],n),l);return B(B(B(m(d),o),k),g)}var
-u=e(a[3],v_),v=e(a[2],v$),w=[0,e(a[1],0),v,u],i=ab(o[1],w),p=o[2];if(p){var
+e=h[3],f=d7(b,a[3]),g=s(B(c[3],f),e),i=h[2],j=d7(b,a[2]),k=s(B(c[2],j),i),l=h[1],n=d7(b,a[1]),o=s(B(c[1],n),l);return B(B(B(m(d),o),k),g)}var
+u=e(a[3],wp),v=e(a[2],wq),w=[0,e(a[1],0),v,u],i=aa(o[1],w),p=o[2];if(p){var
 j=p[1],q=l[2];if(q){var
-k=q[1],z=d0(j,f),A=r(d0(k,g),z),C=d0(k,f),s=B(r(d0(j,g),C),A),D=W(y);if(n(j,k))var
-E=ab(g,f),t=x(s,r(m(c(2,b)),E));else
+k=q[1],y=d7(j,f),A=s(d7(k,g),y),C=d7(k,f),r=B(s(d7(j,g),C),A),D=W(x);if(n(j,k))var
+E=aa(g,f),t=z(r,s(m(c(2,b)),E));else
 var
-t=s;return B(i,ai(t,D))}return i}return i}function
-j4(b,a){if(a)var
-d=j4(b,a[2]),c=[0,e(h(b,a[1]),a),d];else
+t=r;return B(i,ai(t,D))}return i}return i}function
+kb(b,a){if(a)var
+d=kb(b,a[2]),c=[0,e(h(b,a[1]),a),d];else
 var
 c=a;return c}function
-fS(c,b,a){switch(c){case
+f0(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-oO(a){if(a){var
-f=a[1],b=f[2],c=hw(f[1]);if(c)if(b)var
-d=oO(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
+o2(a){if(a){var
+f=a[1],b=f[2],c=hD(f[1]);if(c)if(b)var
+d=o2(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
 var
 e=b;else
 var
-e=c;return e}return wa}function
-oP(c,b,a){var
+e=c;return e}return wr}function
+o3(c,b,a){var
 d=V(b,a);return aq(function(a,d){var
-b=bK(a[2]);return A(t(c,a[1],[0,b,b]),d)},u,d)}function
-oQ(a,h,e,f,d){if(e)if(d)var
-i=d[1],o=oQ(a,h,e[2],f,d[2]),p=i[2],q=aw(h,i[1]),c=e[1],j=ax(t(a,c[3],f)),k=c[3],l=A(ax(ex(p,J(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cJ(A(A(ax(oP(a,c[4],q)),n),m)),o];else
+b=bL(a[2]);return A(t(c,a[1],[0,b,b]),d)},u,d)}function
+o4(a,h,e,f,d){if(e)if(d)var
+i=d[1],o=o4(a,h,e[2],f,d[2]),p=i[2],q=ay(h,i[1]),c=e[1],j=au(t(a,c[3],f)),k=c[3],l=A(au(eE(p,J(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cN(A(A(au(o3(a,c[4],q)),n),m)),o];else
 var
 g=d;else
 var
 g=e;return g}function
-wc(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
-oR(b,a){return ad(e(function(a){return s(a,b,0)},a))}function
-bQ(a){switch(a){case
-0:return wg;case
-1:return wh;default:return 0}}function
-d1(a){switch(a){case
-0:return[0,wj,wi,m(d)];case
-1:return dN;default:var
+wt(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
+o5(b,a){return ac(e(function(a){return r(a,b,0)},a))}function
+bS(a){switch(a){case
+0:return wx;case
+1:return wy;default:return 0}}function
+d8(a){switch(a){case
+0:return[0,wA,wz,m(d)];case
+1:return dT;default:var
 b=m(d),c=m(d);return[0,m(d),c,b]}}function
-hA(c,b,a){return bo(fR(c,a),b)}function
-oS(b,a){if(b)return[0,[0,[0,a]],[0,[0,[0,a]]],[0,[0,[0,[0,a]]]]];var
+hH(c,b,a){return bp(fZ(c,a),b)}function
+o6(b,a){if(b)return[0,[0,[0,a]],[0,[0,[0,a]]],[0,[0,[0,[0,a]]]]];var
 c=m(d);return[0,m(d),c,[0,[0,a]]]}function
-j5(a){var
-d=ab(a,a),e=B(m(b),d);return ai(m(c(2,b)),e)}function
-oT(a,b){var
-c=bp(a,b),d=af(B,c,bp(a,c));return af(B,b,a8(j5(a),d))}function
-oU(h,g,f,e,d,c){var
-b=oT(c,hA(g,f,d)),a=af(x,af(B,d1(h),b),e);return[0,[0,b,a],aL(ab(a,a))]}function
+kc(a){var
+d=aa(a,a),e=B(m(b),d);return ai(m(c(2,b)),e)}function
+o7(a,b){var
+c=bs(a,b),d=af(B,c,bs(a,c));return af(B,b,a8(kc(a),d))}function
+o8(h,g,f,e,d,c){var
+b=o7(c,hH(g,f,d)),a=af(z,af(B,d8(h),b),e);return[0,[0,b,a],aM(aa(a,a))]}function
 an(a){return typeof
-a==="number"?a?wk:wl:bG(a[1])}function
-j6(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:jV(b[1],a,c)}function
-d2(a){if(0===a[0]){var
+a==="number"?a?wB:wC:bH(a[1])}function
+kd(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:j4(b[1],a,c)}function
+d9(a){if(0===a[0]){var
 c=a[1];switch(c[0]){case
 0:return c[3];case
 1:return c[2];default:return[0,[0,d,b],[0,d,b],[0,d,b]]}}return a[1][4]}function
-d3(b,c,a){return b?di(b[1],c,a):a}function
-bj(d,c,b,a){var
-e=d2(a),f=d3(d,c,d2(a)),g=M(function(b,a){return[2,b,a]},b,f);return M(function(b,a){return[3,b,a]},g,e)}function
-oV(h,g,d,c,f,a){if(0===a[0])var
-i=bj(d,c,f,a),e=b4(a[1],i);else
+d_(b,c,a){return b?dp(b[1],c,a):a}function
+bk(d,c,b,a){var
+e=d9(a),f=d_(d,c,d9(a)),g=M(function(b,a){return[2,b,a]},b,f);return M(function(b,a){return[3,b,a]},g,e)}function
+o9(h,g,d,c,f,a){if(0===a[0])var
+i=bk(d,c,f,a),e=b8(a[1],i);else
 var
-j=bj(d,c,f,a),e=jT(a[1],j);return j6(h,e,P([5,[0,b,b],g],cq(d3(d,c,d2(a)),e)))}function
-eR(d,c,b,a){if(0===a[0]){var
-f=bj(d,c,b,a);return[0,cS(a[1],f)]}var
-e=a[1],g=jR(e,bj(d,c,b,a));return[1,jQ(e,bj(d,c,b,a)),g]}function
-j7(b,a){var
+j=bk(d,c,f,a),e=j2(a[1],j);return kd(h,e,P([5,[0,b,b],g],cu(d_(d,c,d9(a)),e)))}function
+e0(d,c,b,a){if(0===a[0]){var
+f=bk(d,c,b,a);return[0,cW(a[1],f)]}var
+e=a[1],g=j0(e,bk(d,c,b,a));return[1,jZ(e,bk(d,c,b,a)),g]}function
+ke(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-j8(e,d,c,a){if(0===a[0]){var
-f=bj(e,d,c,a),b=jJ(a[1],f),g=b?[0,b[1],0]:b;return g}var
-h=bj(e,d,c,a);return[0,jP(a[1],h),0]}function
-oW(b,f,d){if(0===f[0])return 0===d[0]?n4(b,f[1],d[1]):0;if(0===d[0])return 0;var
-a=d[1],c=f[1],g=bv(b,c[1],a[1]),h=g?bv(b,c[2],a[2]):g,j=h?bv(b,c[3],a[3]):h,k=j?bv(b,c[4],a[4]):j,l=k?dg(b,c[5],a[5]):k,m=l?dg(b,c[6],a[6]):l,n=m?i(b,1,a[5]):m,o=n?i(b,1,a[6]):n,p=o?i(b,1,v(a[1],a[1])):o;if(p)var
-q=jO(a),e=i(b,1,v(jO(a),q));else
+kf(e,d,c,a){if(0===a[0]){var
+f=bk(e,d,c,a),b=jS(a[1],f),g=b?[0,b[1],0]:b;return g}var
+h=bk(e,d,c,a);return[0,jY(a[1],h),0]}function
+o_(b,f,d){if(0===f[0])return 0===d[0]?og(b,f[1],d[1]):0;if(0===d[0])return 0;var
+a=d[1],c=f[1],g=by(b,c[1],a[1]),h=g?by(b,c[2],a[2]):g,j=h?by(b,c[3],a[3]):h,k=j?by(b,c[4],a[4]):j,l=k?dm(b,c[5],a[5]):k,m=l?dm(b,c[6],a[6]):l,n=m?i(b,1,a[5]):m,o=n?i(b,1,a[6]):n,p=o?i(b,1,v(a[1],a[1])):o;if(p)var
+q=jX(a),e=i(b,1,v(jX(a),q));else
 var
-e=p;return e?cE(c[7],a[7]):e}function
-eS(g,f,e){var
+e=p;return e?cI(c[7],a[7]):e}function
+e1(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=oW(g,b[1],a[1]);if(c){var
+c=o_(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-hB(c,b,g,a){var
-d=cR(c,b[4],g);if(d){var
-e=b[5];if(e)return fO(c,e[1],a);if(a)return 0;var
+hI(c,b,g,a){var
+d=cV(c,b[4],g);if(d){var
+e=b[5];if(e)return fW(c,e[1],a);if(a)return 0;var
 f=1}else
 var
 f=d;return f}function
-fT(a){return typeof
-a==="number"?wm:2<=a[1]?wn:wo}function
-oX(v,m,l){if(l){var
+f1(a){return typeof
+a==="number"?wD:2<=a[1]?wE:wF}function
+o$(v,m,l){if(l){var
 a=l[1],e=function(c,a){return i(v,1,[3,[0,a,b],c])},g=function(a){return[3,a[2],a[1]]};switch(a[0]){case
 0:var
 n=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),f=e(g(a[1]),n);break;case
@@ -4602,39 +4724,39 @@ f=h;break;case
 t=c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),f=e(a[1],t);break;default:var
 u=c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),f=e([2,a[1],a[2]],u)}return f?typeof
 m==="number"?0:m[1]?1:0===a[0]?1:0:f}return 1}function
-b6(e,j){var
+b_(e,j){var
 a=j[1];switch(a[0]){case
 1:var
 k=n(a[1],e)?b:d;return m(k);case
 3:var
-l=b6(e,a[2]);return B(b6(e,a[1]),l);case
+l=b_(e,a[2]);return B(b_(e,a[1]),l);case
 4:var
-o=b6(e,a[2]);return x(b6(e,a[1]),o);case
-5:return bu(b6(e,a[1]));case
+o=b_(e,a[2]);return z(b_(e,a[1]),o);case
+5:return bx(b_(e,a[1]));case
 6:var
-g=a[2],h=a[1],p=r(h,b6(e,g));return B(r(g,b6(e,h)),p);case
+g=a[2],h=a[1],p=s(h,b_(e,g));return B(s(g,b_(e,h)),p);case
 7:var
-f=b6(e,a[1]);return be(d,f)?f:ai(f,a[2]);case
+f=b_(e,a[1]);return be(d,f)?f:ai(f,a[2]);case
 8:var
-i=a[1],q=b6(e,i);return r(r(m(c(2,b)),i),q);default:return m(d)}}function
-hC(c,b,k){var
+i=a[1],q=b_(e,i);return s(s(m(c(2,b)),i),q);default:return m(d)}}function
+hJ(c,b,k){var
 e=k;for(;;){var
 a=e[1];switch(a[0]){case
 7:var
-g=hC(c,b,a[1]);if(g){var
+g=hJ(c,b,a[1]);if(g){var
 h=a[2][1];if(1===h[0]){var
-i=h[1],j=K(d,s(i,c,u)[1]);return j?I(al(function(a){return n(i,a)},b)):j}return 0}return g;case
+i=h[1],j=K(d,r(i,c,u)[1]);return j?I(aj(function(a){return n(i,a)},b)):j}return 0}return g;case
 5:case
 8:var
 e=a[1];continue;case
 9:case
 10:return 0;case
-3:case
-4:case
-6:var
-f=hC(c,b,a[1]);if(f){var
-e=a[2];continue}return f;default:return 1}}}function
-oY(d){var
+0:case
+1:case
+2:return 1;default:var
+f=hJ(c,b,a[1]);if(f){var
+e=a[2];continue}return f}}}function
+pa(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 0:case
@@ -4645,72 +4767,72 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-c=oY(a[1]);if(c){var
+c=pa(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-oZ(c,b,a){var
+pb(c,b,a){var
 d=e(b,a[2]);return[0,h(c,a[1]),d]}function
-j9(b,a,c){return e(function(c){var
-d=oZ(b,a,c[2]),f=c[1];return[0,e(function(c){return oZ(b,a,c)},f),d]},c)}function
-o0(b,a){return z(function(a){var
+kg(b,a,c){return e(function(c){var
+d=pb(b,a,c[2]),f=c[1];return[0,e(function(c){return pb(b,a,c)},f),d]},c)}function
+pc(b,a){return x(function(a){var
 c=a[2],d=a[1][2];return[0,[0,h(b,a[1][1]),d],c]},a)}function
-wp(a,b){var
-c=o0(a,b[3]),d=h(a,b[2]);return[0,j9(a,a,b[1]),d,c]}function
-o1(c){var
+wG(a,b){var
+c=pc(a,b[3]),d=h(a,b[2]);return[0,kg(a,a,b[1]),d,c]}function
+pd(c){var
 a=c[1];if(a){var
-b=hw(c[2]);if(b)var
-g=e(aa,b[1]),d=[0,[0,aa(a[1]),g]];else
+b=hD(c[2]);if(b)var
+g=e(ad,b[1]),d=[0,[0,ad(a[1]),g]];else
 var
 d=b;var
 f=d}else
 var
 f=a;return f}function
-wq(c){var
-a=ad(e(o1,c[1]));if(a)var
-b=o1(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
+wH(c){var
+a=ac(e(pd,c[1]));if(a)var
+b=pd(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
 var
 d=a;return d}function
-wr(a){return I(jk([0,a[2],a[1]]))}function
-j_(a){return[0,a[1],a[2]]}function
-o2(b,c,a){var
-d=e(function(c){return bH(b,b6(c,a))},c);return[0,bH(b,a),d]}function
-j$(b,e,a,d){var
+wI(a){return I(jp([0,a[2],a[1]]))}function
+kh(a){return[0,a[1],a[2]]}function
+pe(b,c,a){var
+d=e(function(c){return bI(b,b_(c,a))},c);return[0,bI(b,a),d]}function
+ki(b,e,a,d){var
 c=y(function(a){var
-b=j_(a[2]);return g(y(j_,a[1]),b)},d),f=a?[0,bH(b,a[1]),0]:a,h=g(f,c);return[0,bH(b,e),h]}function
-o3(c,f,b,a){var
-d=hC(f,b,a),e=d?hu(c,a):d;return e?l(function(b){return hu(c,b6(b,a))},b):e}function
-o4(a){switch(a[0]){case
+b=kh(a[2]);return g(y(kh,a[1]),b)},d),f=a?[0,bI(b,a[1]),0]:a,h=g(f,c);return[0,bI(b,e),h]}function
+pf(c,f,b,a){var
+d=hJ(f,b,a),e=d?hB(c,a):d;return e?l(function(b){return hB(c,b_(b,a))},b):e}function
+pg(a){switch(a[0]){case
 3:var
-d=j1(a[2]);return[0,a[3],d];case
+d=j_(a[2]);return[0,a[3],d];case
 4:return[0,a[1],0];case
 8:var
-b=a[1],e=j1(b[1]);return[0,b[2],e];case
+b=a[1],e=j_(b[1]);return[0,b[2],e];case
 9:return 0;default:var
-c=j1(a[1]);return[0,a[2],c]}}function
-o5(a,as,bc,k,o,ar,aq,w,N,j,i){switch(j[0]){case
+c=j_(a[1]);return[0,a[2],c]}}function
+ph(a,as,bc,k,o,ar,aq,w,N,j,i){switch(j[0]){case
 0:var
-at=j[4],O=j[3],au=j[2],av=j[1],R=0;if(typeof
+av=j[4],O=j[3],aw=j[2],ax=j[1],R=0;if(typeof
 i==="number")R=1;else
 switch(i[0]){case
 0:var
-bd=i[2],be=i[1],u=au,r=av,q=function(b){return oC(a,o,be,bd,O,b)},p=at;break;case
+bd=i[2],be=i[1],u=aw,s=ax,q=function(b){return oQ(a,o,be,bd,O,b)},p=av;break;case
 2:var
-aw=L(O[1],d),ay=aw?L(O[2],d):aw;if(!ay)return ay;var
-bh=i[2],bi=i[1],u=au,r=av,q=function(b){return oD(a,o,bi,bh,b)},p=at;break;default:R=1}if(R)return 0;break;case
+ay=L(O[1],d),az=ay?L(O[2],d):ay;if(!az)return az;var
+bh=i[2],bi=i[1],u=aw,s=ax,q=function(b){return oR(a,o,bi,bh,b)},p=av;break;default:R=1}if(R)return 0;break;case
 1:var
 aJ=0;if(typeof
 i==="number"&&!i)var
-bj=j[2],bk=j[1],bl=j[3],u=bj,r=bk,bm=0,q=function(b){return oE(a,o,bl,b)},p=bm;else
+bj=j[2],bk=j[1],bl=j[3],u=bj,s=bk,bm=0,q=function(b){return oS(a,o,bl,b)},p=bm;else
 aJ=1;if(aJ)return 0;break;case
 2:if(typeof
 i!=="number"&&3===i[0]){var
-x=i[3];if(x){var
-az=x[2],aB=n(f(az),k);if(aB){var
-bn=[0,j[1],j[2],N],bo=eP(function(a){return s(a,w,wu)},bn),aC=i[1],bp=0,bq=x[1],br=i[2],bs=j[3],bt=function(w,i){var
-c=eO(i[1]);if(c){var
+y=i[3];if(y){var
+aA=y[2],aB=n(f(aA),k);if(aB){var
+bn=[0,j[1],j[2],N],bo=eY(function(a){return r(a,w,wL)},bn),aC=i[1],bp=0,bq=y[1],br=i[2],bs=j[3],bt=function(w,i){var
+c=eX(i[1]);if(c){var
 j=c[1],e=i[2];if(e){var
-f=dn(i[3]);if(f){var
-k=f[1],l=function(c){return aR(c,aC,J(a,b))},u=l(w),v=e[1],g=A(t(a,l(bq),v),u),m=K(d,g[1]),n=m?a0(a,o,gY(aC,br,j,ac([0,C($(g),k),0],o))):m;if(n){var
-h=gZ(a,j,ac([0,C(t(a,bs,g),k),0],o));if(h)return a0(a,o,h[1]);var
+f=du(i[3]);if(f){var
+k=f[1],l=function(c){return aS(c,aC,J(a,b))},u=l(w),v=e[1],g=A(t(a,l(bq),v),u),m=K(d,g[1]),n=m?a1(a,o,g6(aC,br,j,ab([0,C($(g),k),0],o))):m;if(n){var
+h=g7(a,j,ab([0,C(t(a,bs,g),k),0],o));if(h)return a1(a,o,h[1]);var
 p=h}else
 var
 p=n;var
@@ -4722,20 +4844,20 @@ var
 r=e;var
 s=r}else
 var
-s=c;return s};return jZ(function(b,a){return eP},bt,bp,az,d,bo)}var
+s=c;return s};return j8(function(b,a){return eY},bt,bp,aA,d,bo)}var
 aD=aB}else
 var
-aD=x;return aD}return 0;case
+aD=y;return aD}return 0;case
 3:var
 aK=0;if(typeof
 i==="number"||!(0===i[0]))aK=1;else
 var
-aF=i[2],aG=i[1],bu=j[3],bv=j[2],bw=j[4],bx=j[1],by=function(g){var
-b=eO(g[1]);if(b){var
+aE=i[2],aG=i[1],bu=j[3],bv=j[2],bw=j[4],bx=j[1],by=function(g){var
+b=eX(g[1]);if(b){var
 c=b[1],d=g[2];if(d){var
-e=dn(g[3]);if(e){var
-h=n(f(c),o),i=h?n(f(aF),o):h;if(i){var
-m=dP(aG,dQ(aG,aF,d[1],c));return a0(a,o,a$(g3(a,bx,bw,e[1],c),m))}var
+e=du(g[3]);if(e){var
+h=n(f(c),o),i=h?n(f(aE),o):h;if(i){var
+m=dV(aG,dW(aG,aE,d[1],c));return a1(a,o,a$(g$(a,bx,bw,e[1],c),m))}var
 j=i}else
 var
 j=e;var
@@ -4744,79 +4866,79 @@ var
 k=d;var
 l=k}else
 var
-l=b;return l},u=bu,r=bv,q=by,p=j[5];if(aK)return 0;break;case
+l=b;return l},u=bu,s=bv,q=by,p=j[5];if(aK)return 0;break;case
 4:var
 aL=0;if(typeof
 i==="number"&&!i)var
-u=j[1],r=0,q=vK,p=0;else
+u=j[1],s=0,q=v1,p=0;else
 aL=1;if(aL)return 0;break;case
 5:var
 aM=0;if(typeof
 i==="number"||!(0===i[0]))aM=1;else{var
-y=i[2],aN=0;if(y){var
-B=y[1];if(B){if(B[2])return 0;if(y[2])return 0;var
-bz=j[2],bA=j[1],bB=J(a,b),bD=[0,[0,B[1],0],0],bE=i[1],u=bz,r=bA,bF=0,q=function(b){return oC(a,wv,bE,bD,bB,b)},p=bF;aN=1}else
+z=i[2],aN=0;if(z){var
+B=z[1];if(B){if(B[2])return 0;if(z[2])return 0;var
+bz=j[2],bA=j[1],bB=J(a,b),bC=[0,[0,B[1],0],0],bD=i[1],u=bz,s=bA,bE=0,q=function(b){return oQ(a,wM,bD,bC,bB,b)},p=bE;aN=1}else
 var
 aH=B}else
 var
-aH=y;if(!aN)return aH}if(aM)return 0;break;case
+aH=z;if(!aN)return aH}if(aM)return 0;break;case
 6:var
 aO=0;if(typeof
 i==="number"&&!i)var
-bG=j[2],bH=j[1],bI=J(a,b),u=bG,r=bH,bJ=0,q=function(b){return oE(a,ww,bI,b)},p=bJ;else
+bF=j[2],bG=j[1],bH=J(a,b),u=bF,s=bG,bI=0,q=function(b){return oS(a,wN,bH,b)},p=bI;else
 aO=1;if(aO)return 0;break;case
 7:var
 aP=0;if(typeof
 i==="number"&&5<=i)var
-bK=j[2],bL=j[1],bM=j[4],bN=j[3],u=bK,r=bL,bO=0,q=function(b){return oD(a,o,bN,bM,b)},p=bO;else
+bJ=j[2],bK=j[1],bL=j[4],bM=j[3],u=bJ,s=bK,bN=0,q=function(b){return oR(a,o,bM,bL,b)},p=bN;else
 aP=1;if(aP)return 0;break;case
 8:if(typeof
 i!=="number"&&9===i[0]){var
-P=i[4],aI=i[2],Q=i[1],m=j[1],v=m[9],bP=i[3],aQ=m[5],aT=cK(g(cH(m[4]),aQ),as),aU=e(aa,bc),T=cj(0,bC(a,nq(m[9],k,ar,m[7],m[8]),aU),aT,as),U=mn(P,d);if(U)var
+P=i[4],aI=i[2],Q=i[1],m=j[1],v=m[9],bO=i[3],aQ=m[5],aR=cO(g(cL(m[4]),aQ),as),aU=e(ad,bc),T=c$(0,b4(a,ny(m[9],k,ar,m[7],m[8]),aU),aR,as),U=mw(P,d);if(U)var
 D=U;else
 var
-ao=mo(P,c(2,c(2,c(2,c(2,b))))),ap=ao?aE(0,v):ao,D=ap?aE(v,k):ap;var
-W=D?ae(v,k):D,X=W?n(f(ar),k):W,Y=X?n(f(aI),k):X,Z=Y?n(f(m[1]),k):Y,_=Z?n(f(m[6]),k):Z,ab=_?n(f(m[4]),k):_;if(ab)var
+ao=mx(P,c(2,c(2,c(2,c(2,b))))),ap=ao?aF(0,v):ao,D=ap?aF(v,k):ap;var
+W=D?ae(v,k):D,X=W?n(f(ar),k):W,Y=X?n(f(aI),k):X,Z=Y?n(f(m[1]),k):Y,_=Z?n(f(m[6]),k):Z,aa=_?n(f(m[4]),k):_;if(aa)var
 aV=m[4],E=l(function(a){return n(f(a),k)},aV);else
 var
-E=ab;if(E){var
-aW=m[4],F=ad(e(function(a){return oR(T,a)},aW));if(F){var
-af=oR(T,m[5]);if(af){var
-aX=m[6],G=ad(e(function(j){var
-c=j[1],k=m[7],d=s(c[1],aq,0);if(d){var
-h=c[2][2],b=ad(e(function(a){var
-b=s(a[2],aq,0);return z(function(a){return a[2]},b)},h));if(b)var
-i=b[1],f=[0,cJ(ax(t(a,k,S(a,oP(a,e(aA,c[2][2]),i)))))];else
+E=aa;if(E){var
+aW=m[4],F=ac(e(function(a){return o5(T,a)},aW));if(F){var
+af=o5(T,m[5]);if(af){var
+aX=m[6],G=ac(e(function(j){var
+c=j[1],k=m[7],d=r(c[1],aq,0);if(d){var
+h=c[2][2],b=ac(e(function(a){var
+b=r(a[2],aq,0);return x(function(a){return a[2]},b)},h));if(b)var
+i=b[1],f=[0,cN(au(t(a,k,S(a,o3(a,e(at,c[2][2]),i)))))];else
 var
 f=b;var
 g=f}else
 var
 g=d;return g},aX));if(G){var
-aY=m[1],aZ=m[2],H=ad(e(function(m){function
+aY=m[1],aZ=m[2],H=ac(e(function(m){function
 f(e){var
-g=ac(e,k),c=oB(s(m[2],w,wd),g);if(c){var
-h=ac(e,k),d=oB(s(aZ,w,we),h);if(d){var
-i=d[1],j=J(a,b);return cg(a,ch(ex(c[1],j,i)))}var
+g=ab(e,k),c=oP(r(m[2],w,wu),g);if(c){var
+h=ab(e,k),d=oP(r(aZ,w,wv),h);if(d){var
+i=d[1],j=J(a,b);return ck(a,cl(eE(c[1],j,i)))}var
 f=d}else
 var
 f=c;return f}var
 c=f(0);if(c){var
 e=f(2);if(e)var
-g=ch(ax(A(c[1],e[1]))),h=K(d,g[1]),l=h?[0,g]:h,i=l;else
+g=cl(au(A(c[1],e[1]))),h=K(d,g[1]),l=h?[0,g]:h,i=l;else
 var
 i=e;var
 j=i}else
 var
 j=c;return j},aY));if(H){var
-ag=nk(a,k,v,F[1]),I=aR(bP,Q,J(a,b)),ah=K(d,C(I,ag)[1]);if(ah){var
-M=b0(a,I);if(M){var
-a1=ax(t(a,ag,M[1])),a2=C(J(a,b),a1),a3=[0,m[1],m[2],N],a4=eP(function(a){return s(a,w,wf)},a3),a5=m[6],a6=e(wc,V(V(G[1],H[1]),a5)),a7=S(a,a2),a8=S(a,I),a9=nl(k,v,m[10],P),a_=function(m){var
-b=oO(m[1]);if(b){var
+ag=ns(a,k,v,F[1]),I=aS(bO,Q,J(a,b)),ah=K(d,C(I,ag)[1]);if(ah){var
+M=b2(a,I);if(M){var
+a0=au(t(a,ag,M[1])),a2=C(J(a,b),a0),a3=[0,m[1],m[2],N],a4=eY(function(a){return r(a,w,ww)},a3),a5=m[6],a6=e(wt,V(V(G[1],H[1]),a5)),a7=S(a,a2),a8=S(a,I),a9=nt(k,v,m[10],P),a_=function(m){var
+b=o2(m[1]);if(b){var
 o=b[1],c=m[2];if(c){var
-d=c[1],h=dn(m[3]);if(h){var
-p=h[1],q=oQ(a,k,a6,d,o),i=e(function(a){var
-b=a[2];return[0,nm(a9,a[1]),b]},o),z=dP(Q,dQ(Q,aI,d,i)),j=a$(ac([0,$(p),0],k),z),A=C(t(a,d,a7),p),r=n(f(i),k),s=r?n(f(q),k):r,u=s?no(k,j):s,v=u?a0(a,k,a$(e(function(b){return[0,$(t(a,a8,b[2])),0]},i),j)):u;if(v){var
-B=ba(aS(k));return l(function(b){return a0(a,[0,k],nn(j,np(g(b,wb),q),A))},B)}var
+d=c[1],h=du(m[3]);if(h){var
+p=h[1],q=o4(a,k,a6,d,o),i=e(function(a){var
+b=a[2];return[0,nu(a9,a[1]),b]},o),z=dV(Q,dW(Q,aI,d,i)),j=a$(ab([0,$(p),0],k),z),A=C(t(a,d,a7),p),r=n(f(i),k),s=r?n(f(q),k):r,u=s?nw(k,j):s,v=u?a1(a,k,a$(e(function(b){return[0,$(t(a,a8,b[2])),0]},i),j)):u;if(v){var
+B=ba(aT(k));return l(function(b){return a1(a,[0,k],nv(j,nx(g(b,ws),q),A))},B)}var
 w=v}else
 var
 w=h;var
@@ -4825,7 +4947,7 @@ var
 x=c;var
 y=x}else
 var
-y=b;return y},bb=m[3];return h(j0(function(b,a){return eP},bb,k,a_),a4)}var
+y=b;return y},bb=m[3];return h(j9(function(b,a){return eY},bb,k,a_),a4)}var
 ai=M}else
 var
 ai=ah;var
@@ -4844,71 +4966,71 @@ am=F;var
 an=am}else
 var
 an=E;return an}return 0;default:return 0}var
-bf=[0,r,u,N],bg=eP(function(a){return s(a,w,wt)},bf);return h(j0(function(b,a){return eP},p,k,q),bg)}function
-wx(b,a){var
-c=i0(iV,b[1],a[1]);return c?iV(b[2],a[2]):c}function
-o6(c,b){var
-a=i0(wx,c,b),d=a?1:a;return d}function
-o7(j,s,r,i,q,k,p,o,m,h,l,g,a,e){if(typeof
-e==="number"){if(0===e)return 9===a[0]?eG(j,0,0,0,g,i,0,a[1],e):0}else
+bf=[0,s,u,N],bg=eY(function(a){return r(a,w,wK)},bf);return h(j9(function(b,a){return eY},p,k,q),bg)}function
+wO(b,a){var
+c=i6(i1,b[1],a[1]);return c?i1(b[2],a[2]):c}function
+pi(c,b){var
+a=i6(wO,c,b),d=a?1:a;return d}function
+pj(j,s,r,i,q,k,p,o,m,h,l,g,a,e){if(typeof
+e==="number"){if(0===e)return 9===a[0]?eP(j,0,0,0,g,i,0,a[1],e):0}else
 switch(e[0]){case
 6:var
 f=e[1];if(typeof
 f!=="number"&&7===f[0]){if(k){var
-t=f[3],u=f[2],v=F(d,u),w=v?gM(t,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):v;if(w)return o5(j,s,r,i,q,h,g,l,[0,[0,[0,k[1],u],t]],a,f[1]);var
+t=f[3],u=f[2],v=F(d,u),w=v?gU(t,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):v;if(w)return ph(j,s,r,i,q,h,g,l,[0,[0,[0,k[1],u],t]],a,f[1]);var
 x=w}else
 var
-x=k;return x}return o5(j,s,r,i,q,h,g,l,0,a,f);case
-8:return 9===a[0]?eG(j,0,0,0,g,i,0,a[1],e):0;case
+x=k;return x}return ph(j,s,r,i,q,h,g,l,0,a,f);case
+8:return 9===a[0]?eP(j,0,0,0,g,i,0,a[1],e):0;case
 10:if(0===a[0]){var
-y=o6(a[1],p),z=y?n(a[2],o):y;return z?ij(m,h,a[3],a[4],e):z}return 0;case
+y=pi(a[1],p),z=y?n(a[2],o):y;return z?gp(m,h,a[3],a[4],e):z}return 0;case
 12:if(0===a[0]){var
-A=o6(a[1],p),B=A?n(a[2],o):A;return B?ij(m,h,a[3],a[4],e):B}return 0}return 0}function
-o8(b){var
+A=pi(a[1],p),B=A?n(a[2],o):A;return B?gp(m,h,a[3],a[4],e):B}return 0}return 0}function
+pk(b){var
 a=b[2];if(typeof
 a!=="number"&&6===a[0])return 1;return 0}function
-wy(c){var
+wP(c){var
 b=0,a=c[2];if(typeof
 a==="number"){if(0!==a)b=1}else
 switch(a[0]){case
 6:case
 8:break;default:b=1}return b?0:1}function
-wz(a){switch(a[0]){case
+wQ(a){switch(a[0]){case
 8:return 0;case
-9:return jy(a[1]);default:return 1}}function
-fU(a,o,m,j,x,w,b,v,r,D,i,k,ap,c){switch(c[0]){case
+9:return jH(a[1]);default:return 1}}function
+f2(a,o,m,j,z,w,b,v,s,D,i,k,ap,c){switch(c[0]){case
 0:var
 aq=function(a){return l(I,a)},P=aq,p=c[1];break;case
 1:var
-ar=c[4],as=c[3],at=c[2],au=function(c){var
-d=da(at,k),e=fU(a,o,m,j,x,w,b,v,r,D,i,d[1],c,as);return e?fU(a,o,m,j,x,w,b,v,r,D,i,d[2],c,ar):e},P=au,p=c[1];break;default:var
-av=c[4],aw=c[3],ax=c[2],ay=function(c){var
-d=nN(wz,j,c);if(d){var
-e=da(ax,i),f=fU(a,o,m,j,x,w,b,v,r,D,e[1],k,c,aw);if(f)return fU(a,o,m,j,x,w,b,v,r,D,e[2],k,c,av);var
+ar=c[4],as=c[3],au=c[2],av=function(c){var
+d=dg(au,k),e=f2(a,o,m,j,z,w,b,v,s,D,i,d[1],c,as);return e?f2(a,o,m,j,z,w,b,v,s,D,i,d[2],c,ar):e},P=av,p=c[1];break;default:var
+aw=c[4],ax=c[3],ay=c[2],az=function(c){var
+d=n1(wQ,j,c);if(d){var
+e=dg(ay,i),f=f2(a,o,m,j,z,w,b,v,s,D,e[1],k,c,ax);if(f)return f2(a,o,m,j,z,w,b,v,s,D,e[2],k,c,aw);var
 g=f}else
 var
-g=d;return g},P=ay,p=c[1]}var
-ae=h(D,i),ab=al(wy,p),ac=ab?js(a,m,i,cK(y(function(c){var
+g=d;return g},P=az,p=c[1]}var
+ae=h(D,i),ab=aj(wP,p),ac=ab?jA(a,m,i,cO(y(function(c){var
 a=E(j,c[1]);if(a){var
 b=a[1];switch(b[0]){case
 8:var
 d=b[1][6];return y(function(a){var
-b=e(aH,a[1][2][2]);return[0,a[1][1],b]},d);case
-9:return fA(0,0,0,b[1],c[2]);default:return 0}}return a},p),m),k):ab,ad=al(o8,p);if(ad)var
+b=e(aJ,a[1][2][2]);return[0,a[1][1],b]},d);case
+9:return fH(0,0,0,b[1],c[2]);default:return 0}}return a},p),m),k):ab,ad=aj(pk,p);if(ad)var
 an=y(function(b){var
-c=o8(b);if(c){var
-a=E(j,b[1]);if(a)return o4(a[1]);var
+c=pk(b);if(c){var
+a=E(j,b[1]);if(a)return pg(a[1]);var
 d=a}else
 var
-d=c;return d},p),ao=b?[0,b[1],0]:b,ah=mI(g(ao,an),o),O=jY(a,i,eu(hv(eu(o,0),ah),0),k);else
+d=c;return d},p),ao=b?[0,b[1],0]:b,ah=mR(g(ao,an),o),O=j7(a,i,eB(hC(eB(o,0),ah),0),k);else
 var
 O=ad;var
 q=p,f=ap;for(;;){if(q){var
 T=q[1],F=T[2],n=T[1],H=q[2];if(n){var
-U=s(n,f,0);if(U){var
+U=r(n,f,0);if(U){var
 L=E(j,n);if(L){var
-V=o7(a,m,i,x,w,b,v,r,ae,k,O,ac,L[1],F);if(V){var
-q=H,f=he(n,f);continue}var
+V=pj(a,m,i,z,w,b,v,s,ae,k,O,ac,L[1],F);if(V){var
+q=H,f=hl(n,f);continue}var
 W=V}else
 var
 W=L;var
@@ -4919,25 +5041,25 @@ B=X}else{var
 af=0;if(typeof
 F==="number"&&4===F){var
 ag=0;if(b){var
-am=0,Q=e(function(b){return[0,b,S(a,b)]},k),ai=e(aH,Q),aj=g(e(aA,Q),ai),ak=c5(0,function(o){return function(b){switch(b[0]){case
-0:return[0,s(b[1],o,u)];case
-1:return[0,s(b[1],i,u)];case
+am=0,Q=e(function(b){return[0,b,S(a,b)]},k),ai=e(aJ,Q),ak=g(e(at,Q),ai),al=c_(0,function(o){return function(b){switch(b[0]){case
+0:return[0,r(b[1],o,u)];case
+1:return[0,r(b[1],i,u)];case
 2:return[0,J(a,b[1])];case
 3:var
-c=b[2],d=b[1];return dm(function(b,a){return[0,A(b,a)]},d,c);case
+c=b[2],d=b[1];return dt(function(b,a){return[0,A(b,a)]},d,c);case
 4:var
-e=b[2],f=b[1];return dm(function(b,a){return[0,C(b,a)]},f,e);case
+e=b[2],f=b[1];return dt(function(b,a){return[0,C(b,a)]},f,e);case
 5:var
-g=b[1];return dl(function(a){return[0,$(a)]},g);case
+g=b[1];return ds(function(a){return[0,$(a)]},g);case
 6:var
-h=b[2],j=b[1];return dm(function(c,b){return[0,t(a,c,b)]},j,h);case
+h=b[2],j=b[1];return dt(function(c,b){return[0,t(a,c,b)]},j,h);case
 7:var
-k=b[2],l=b[1];return dm(function(c,b){var
-d=b0(a,b);return z(function(b){return t(a,c,b)},d)},l,k);case
+k=b[2],l=b[1];return dt(function(c,b){var
+d=b2(a,b);return x(function(b){return t(a,c,b)},d)},l,k);case
 8:var
-m=b[1];return dl(function(b){return[0,S(a,b)]},m);case
+m=b[1];return ds(function(b){return[0,S(a,b)]},m);case
 9:var
-n=b[1];return dl(function(b){return cg(a,b)},n);default:return 0}}}(aj),o),G=s(b[1],ak,am);if(G){var
+n=b[1];return ds(function(b){return ck(a,b)},n);default:return 0}}}(ak),o),G=r(b[1],al,am);if(G){var
 M=K(G[1][2],d);ag=1}else
 var
 R=G}else
@@ -4947,10 +5069,10 @@ M=R;if(M){var
 q=H,f=e(function(a){return 0},f);continue}var
 B=M}else
 af=1;if(af){var
-Y=s(n,f,0);if(Y){var
+Y=r(n,f,0);if(Y){var
 N=E(j,n);if(N){var
-Z=o7(a,m,i,x,w,b,v,r,ae,k,O,ac,N[1],F);if(Z){var
-q=H,f=he(n,f);continue}var
+Z=pj(a,m,i,z,w,b,v,s,ae,k,O,ac,N[1],F);if(Z){var
+q=H,f=hl(n,f);continue}var
 _=Z}else
 var
 _=N;var
@@ -4960,204 +5082,204 @@ aa=Y;var
 B=aa}}}else
 var
 B=[0,f];return B?P(B[1]):B}}function
-ka(d,a){var
-e=W(a),f=r(r(m(c(2,b)),a),d);return B(x(W(d),f),e)}function
-kb(k,a,d,j,c,i){var
-e=af(x,d1(k),j);if(i){var
+kj(d,a){var
+e=W(a),f=s(s(m(c(2,b)),a),d);return B(z(W(d),f),e)}function
+kk(k,a,d,j,c,i){var
+e=af(z,d8(k),j);if(i){var
 b=function(b){var
-c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=fR([0,b(function(a){return a[1]}),g,f],e);return af(B,a8(d,c),l)}var
-m=fR(a,c);return af(B,a8(d,e),m)}function
-o9(f,h,g,k,a,d){var
-e=d1(f),i=af(x,e,a),j=fR(h,d),l=ka(e[3],a[3]),n=ka(e[2],a[2]),o=ka(e[1],a[1]),p=B(B(B(ab(d,d),o),n),l),q=ab(j,i),s=r(m(c(2,b)),q),t=B(r(g,p),s),u=bo(bp(j,i),k);return[0,fS(f,kb(f,h,g,a,d,0),u),t]}function
-o_(d,c,b,a){var
-e=hA(c,b,a);return af(B,d1(d),e)}function
-o$(g,f,e,d,c){var
-b=o_(g,f,e,c),a=af(x,b,d);return[0,[0,b,a],aL(ab(a,a))]}function
-hD(b,a){var
-c=bg(a[2],b);return g(bg(a[1],b),c)}function
-kc(d,b,a,c){if(a)var
-e=a[1],g=co(c,hD(b,e)),i=N(c,f(hD(b,e))),j=kc(d,b,a[2],i),k=am(g,wA),h=[0,as(d,am(g,0),k),j];else
+c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=fZ([0,b(function(a){return a[1]}),g,f],e);return af(B,a8(d,c),l)}var
+m=fZ(a,c);return af(B,a8(d,e),m)}function
+pl(f,h,g,k,a,d){var
+e=d8(f),i=af(z,e,a),j=fZ(h,d),l=kj(e[3],a[3]),n=kj(e[2],a[2]),o=kj(e[1],a[1]),p=B(B(B(aa(d,d),o),n),l),q=aa(j,i),r=s(m(c(2,b)),q),t=B(s(g,p),r),u=bp(bs(j,i),k);return[0,f0(f,kk(f,h,g,a,d,0),u),t]}function
+pm(d,c,b,a){var
+e=hH(c,b,a);return af(B,d8(d),e)}function
+pn(g,f,e,d,c){var
+b=pm(g,f,e,c),a=af(z,b,d);return[0,[0,b,a],aM(aa(a,a))]}function
+hK(b,a){var
+c=bh(a[2],b);return g(bh(a[1],b),c)}function
+kl(d,b,a,c){if(a)var
+e=a[1],g=cs(c,hK(b,e)),i=N(c,f(hK(b,e))),j=kl(d,b,a[2],i),k=am(g,wR),h=[0,as(d,am(g,0),k),j];else
 var
 h=a;return h}function
-kd(f,o,e,n,a){var
-g=r(W(s(0,n,m(d))),o);if(typeof
+km(f,o,e,n,a){var
+g=s(W(r(0,n,m(d))),o);if(typeof
 a!=="number")switch(a[0]){case
 2:var
 b=E(e,a[1]);if(b)var
-h=i(f,0,a[2]),j=h?[0,x(b[1][1][2],g)]:h;else
+h=i(f,0,a[2]),j=h?[0,z(b[1][1][2],g)]:h;else
 var
 j=b;return j;case
 3:var
 c=E(e,a[1]);if(c)var
-k=i(f,0,a[2]),l=k?[0,x(g,c[1][1][2])]:k;else
+k=i(f,0,a[2]),l=k?[0,z(g,c[1][1][2])]:k;else
 var
 l=c;return l}return 0}function
-pa(c,b,a){if(typeof
+po(c,b,a){if(typeof
 a!=="number"&&6===a[0]){var
-e=E(c,a[1]);return z(function(a){var
-c=s(0,b,m(d)),e=h(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
-hE(a){return i(j,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
-pb(a){var
-b=am(a,wB),c=aL(ab(am(a,wC),b));return r(s(0,a,m(d)),c)}function
-pc(b,a){var
-c=ab(a,am(b,wD));return[0,bL(a8(pb(b),a)),c]}function
-pd(e,d,a,c,b){var
-f=b[2],g=r(pb(a),f),h=c?hA(e,d,am(a,wE)):am(a,wF);return x(ab(b[1][2],h),g)}function
-pe(h,g,f,d,c,b,a){var
-i=bz(c);function
-j(a){return o_(h,g,f,a)}return nT(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
-d4(a){var
-b=s(wG,a,m(d));return ai(s(0,a,m(d)),b)}function
-ke(a){return a[4][2]}function
-pf(f,o,n,l,a){var
-p=a[1][2],q=e(aH,fE(n,a[1][2])),h=d4(l),i=r(r(m(c(2,b)),o),h),d=a[1][1],j=aw(bQ(f),d),k=e(function(a){return r(a,i)},j);return[0,g(g(ao(bQ(f),d),k),q),p]}function
-pg(a){var
-b=a[3],c=a[2],d=a[1];return hp([0,[0,d,d],[0,c,c],[0,b,b]])}function
-wP(a){if(typeof
+e=E(c,a[1]);return x(function(a){var
+c=r(0,b,m(d)),e=h(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
+hL(a){return i(j,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
+pp(a){var
+b=am(a,wS),c=aM(aa(am(a,wT),b));return s(r(0,a,m(d)),c)}function
+pq(b,a){var
+c=aa(a,am(b,wU));return[0,bM(a8(pp(b),a)),c]}function
+pr(e,d,a,c,b){var
+f=b[2],g=s(pp(a),f),h=c?hH(e,d,am(a,wV)):am(a,wW);return z(aa(b[1][2],h),g)}function
+ps(h,g,f,d,c,b,a){var
+i=bC(c);function
+j(a){return pm(h,g,f,a)}return n7(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
+d$(a){var
+b=r(wX,a,m(d));return ai(r(0,a,m(d)),b)}function
+kn(a){return a[4][2]}function
+pt(f,o,n,l,a){var
+p=a[1][2],q=e(aJ,fM(n,a[1][2])),h=d$(l),i=s(s(m(c(2,b)),o),h),d=a[1][1],j=ay(bS(f),d),k=e(function(a){return s(a,i)},j);return[0,g(g(ao(bS(f),d),k),q),p]}function
+pu(a){var
+b=a[3],c=a[2],d=a[1];return hw([0,[0,d,d],[0,c,c],[0,b,b]])}function
+w6(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-ph(b,a){switch(b){case
+pv(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-hF(a){var
-c=cl(a[1],[0,d,b]);return c?cl(a[2],[0,d,b]):c}function
-kf(d,a){switch(d){case
-0:return hF(a[3]);case
+hM(a){var
+c=co(a[1],[0,d,b]);return c?co(a[2],[0,d,b]):c}function
+ko(d,a){switch(d){case
+0:return hM(a[3]);case
 1:return 1;default:var
-b=hF(a[1]),c=b?hF(a[2]):b;return c?hF(a[3]):c}}function
-kg(c,b){var
-a=y(function(a){return hD(c,a)},b),d=V(aI(0,f(a)),a);return e(aA,a6(function(a){return jG(a[2])},d))}function
-pi(b){var
+b=hM(a[1]),c=b?hM(a[2]):b;return c?hM(a[3]):c}}function
+kp(c,b){var
+a=y(function(a){return hK(c,a)},b),d=V(aB(0,f(a)),a);return e(at,aZ(function(a){return jP(a[2])},d))}function
+pw(b){var
 a=b[2];if(typeof
 a!=="number")switch(a[0]){case
 10:case
 12:return 1}return 0}function
-pj(c){var
-a=c;for(;;){if(0===a[0])return al(pi,a[1]);var
-d=al(pi,a[1]),b=d||pj(a[3]);if(b)return b;var
+px(c){var
+a=c;for(;;){if(0===a[0])return aj(pw,a[1]);var
+d=aj(pw,a[1]),b=d||px(a[3]);if(b)return b;var
 a=a[4];continue}}function
-wQ(a,aS,bB,C,D,aQ){var
-o=C[1],k=bG(o),Z=C[6],bC=C[2],O=y(function(a){return hD(D,a)},bC),aT=C[3],T=[0,[0,aT,aT],D],ae=[0,f(O)],bD=0,aU=y(function(a){return fP(bD,D,a)},Z),bF=bQ(o),aV=oH(C[5],bF),p=aV[2],H=aV[1],M=bM(T,f(O)),bJ=C[2],U=f(O),bI=0,w=kc(function(c,a){function
+w7(a,aR,bB,C,D,aQ){var
+o=C[1],k=bH(o),Z=C[6],bC=C[2],O=y(function(a){return hK(D,a)},bC),aT=C[3],T=[0,[0,aT,aT],D],ae=[0,f(O)],bD=0,aU=y(function(a){return fX(bD,D,a)},Z),bE=bS(o),aV=oV(C[5],bE),p=aV[2],H=aV[1],M=bO(T,f(O)),bJ=C[2],U=f(O),bG=0,w=kl(function(c,a){function
 h(e){var
-b=oS(o,bG(o)),m=oU(o,H,p,c,a,b)[2],f=oU(o,H,p,c,a,b),g=f[1],h=bo(g[2],f[2]),i=bp(g[1],h),j=af(B,i,bp(i,b)),d=a8(j5(b),j),k=r(d[3],e),l=r(d[2],e);return[0,fS(o,h,[0,r(d[1],e),l,k]),m]}function
+b=o6(o,bH(o)),m=o8(o,H,p,c,a,b)[2],f=o8(o,H,p,c,a,b),g=f[1],h=bp(g[2],f[2]),i=bs(g[1],h),j=af(B,i,bs(i,b)),d=a8(kc(b),j),k=s(d[3],e),l=s(d[2],e);return[0,f0(o,h,[0,s(d[1],e),l,k]),m]}function
 i(F){var
-k=o$(o,H,p,c,a),l=k[1],D=af(x,d1(o),c),n=k[2],i=l[1],E=l[2],e=hA(H,p,a),h=bo(E,n),u=ai(ab(e,h),M),v=W(M),w=ai(ab(a,a),v),y=2<=o?d:b,z=B(m(y),w),A=oM(o,e,M),f=af(x,[0,[0,[1,U]],[0,[1,[0,U]]],[0,[1,[0,[0,U]]]]],c),g=bo(f,aL(ab(f,f)));if(o)var
-j=hz(o,U,c,i,g[3]);else
+k=pn(o,H,p,c,a),l=k[1],D=af(z,d8(o),c),n=k[2],i=l[1],E=l[2],e=hH(H,p,a),h=bp(E,n),u=ai(aa(e,h),M),v=W(M),w=ai(aa(a,a),v),x=2<=o?d:b,y=B(m(x),w),A=o0(o,e,M),f=af(z,[0,[0,[1,U]],[0,[1,[0,U]]],[0,[1,[0,[0,U]]]]],c),g=bp(f,aM(aa(f,f)));if(o)var
+j=hG(o,U,c,i,g[3]);else
 var
 s=m(d),t=m(d),j=[0,m(d),t,s];var
-q=hz(o,U,c,i,g[2]),r=[0,hz(o,U,c,i,g[1]),q,j],C=j4(function(a,b){return oN(r,h,e,M,a,b)},A);return[0,fS(o,h,bo(bp(e,bo(D,n)),M)),C,z,u]}var
-j=o$(o,H,p,c,a);function
-k(b){return kb(o,H,p,c,a,b)}var
+q=hG(o,U,c,i,g[2]),r=[0,hG(o,U,c,i,g[1]),q,j],C=kb(function(a,b){return o1(r,h,e,M,a,b)},A);return[0,f0(o,h,bp(bs(e,bp(D,n)),M)),C,y,u]}var
+j=pn(o,H,p,c,a);function
+k(b){return kk(o,H,p,c,a,b)}var
 e=2<=o?d:b;function
 f(b){var
-c=W(M),d=m(e),f=r(x(W(b),d),c);return r(p,x(ab(a,a),f))}var
-g=[0,ab(kb(o,H,p,c,a,1),a),f];return[0,o9(o,H,p,M,c,a),g,k,j,i,h]},D,bJ,bI),X=e(function(a){return a[1]},w),bK=N(ae,f(aU)),bN=bQ(o),bO=C[5];function
-R(a){return[0,[0,N(bN,a)]]}var
-aJ=W([0,[1,bK]]);switch(bO[0]){case
+c=W(M),d=m(e),f=s(z(W(b),d),c);return s(p,z(aa(a,a),f))}var
+g=[0,aa(kk(o,H,p,c,a,1),a),f];return[0,pl(o,H,p,M,c,a),g,k,j,i,h]},D,bJ,bG),X=e(function(a){return a[1]},w),bK=N(ae,f(aU)),bL=bS(o),bN=C[5];function
+R(a){return[0,[0,N(bL,a)]]}var
+aI=W([0,[1,bK]]);switch(bN[0]){case
 2:var
-bs=R(vU),bt=R(vV),aK=[0,R(0),bt,bs],G=[0,x(aJ,ab(aK,aK))];break;case
+br=R(v$),bt=R(wa),aK=[0,R(0),bt,br],G=[0,z(aI,aa(aK,aK))];break;case
 3:var
-bu=W(R(vW)),bv=W(R(0)),bw=W(R(vX)),G=[0,x(x(r(aJ,B(m(b),bw)),bv),bu)];break;default:var
+bu=W(R(wb)),bv=W(R(0)),bw=W(R(wc)),G=[0,z(z(s(aI,B(m(b),bw)),bv),bu)];break;default:var
 G=0}var
 aW=C[7];if(aW)var
-bP=0,bR=C[2],ao=kc(function(k,t){var
-a=o9(o,H,p,bM(T,f(O)),k,t);switch(o){case
+bP=0,bQ=C[2],ao=kl(function(k,t){var
+a=pl(o,H,p,bO(T,f(O)),k,t);switch(o){case
 0:var
 c=a[1];if(c){var
 l=c[2],e=c[1];if(l){var
-n=l[1],s=a[2];return[0,[0,e,[0,n,[0,bp(k,[0,e,n,m(d)])[3],0]]],s]}return[0,[0,e,0],a[2]]}return[0,0,a[2]];case
+n=l[1],s=a[2];return[0,[0,e,[0,n,[0,bs(k,[0,e,n,m(d)])[3],0]]],s]}return[0,[0,e,0],a[2]]}return[0,0,a[2]];case
 1:var
 g=a[1];if(g){var
 h=g[2],b=g[1];if(h){var
 q=h[2],i=h[1];if(q){var
-r=q[1],j=bp(k,[0,b,i,r]);return[0,[0,b,[0,i,[0,r,[0,j[1],[0,j[2],[0,j[3],0]]]]]],a[2]]}return[0,[0,b,[0,i,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]];default:return[0,a[1],a[2]]}},D,bR,bP);else
+r=q[1],j=bs(k,[0,b,i,r]);return[0,[0,b,[0,i,[0,r,[0,j[1],[0,j[2],[0,j[3],0]]]]]],a[2]]}return[0,[0,b,[0,i,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]];default:return[0,a[1],a[2]]}},D,bQ,bP);else
 var
 ao=aW;var
-bS=bE(ao),bT=G?[0,G[1],0]:G,bU=g(bT,bS),bV=0,bW=g(O,[0,T,0]),bA=e(function(a){return a[1]},w),bX=[0,p,g(dk(function(c,b){if(typeof
+bR=bF(ao),bT=G?[0,G[1],0]:G,bU=g(bT,bR),bV=0,bW=g(O,[0,T,0]),bA=e(function(a){return a[1]},w),bX=[0,p,g(dr(function(c,b){if(typeof
 b!=="number")switch(b[0]){case
 6:var
-f=pa(w,c,b);if(f)var
+f=po(w,c,b);if(f)var
 j=f[1],k=[0,j[1],[0,j[2],0]];else
 var
 k=f;return k;case
-8:return e(aH,hr(bA,c));case
+8:return e(aJ,hy(bA,c));case
 13:var
 i=E(w,b[1]);if(i){var
-l=hE(b[4]);if(l){var
-m=pc(c,h(i[1][3],b[2]));return g(m[1],[0,m[2],0])}var
+l=hL(b[4]);if(l){var
+m=pq(c,h(i[1][3],b[2]));return g(m[1],[0,m[2],0])}var
 n=l}else
 var
 n=i;return n;case
-16:return y(function(a){return pf(o,M,bW,c,a)[1]},w)}var
-d=kd(a,p,w,c,b),q=d?[0,d[1],0]:d;return q},bV,D,ae,Z),bU)],ap=g(bE(X),bX),bY=0,bZ=g(O,[0,T,0]),aX=dk(function(b,a){if(typeof
+16:return y(function(a){return pt(o,M,bW,c,a)[1]},w)}var
+d=km(a,p,w,c,b),q=d?[0,d[1],0]:d;return q},bV,D,ae,Z),bU)],ap=g(bF(X),bX),bY=0,bZ=g(O,[0,T,0]),aX=dr(function(b,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-f=E(w,a[1]);if(f){if(hE(a[4]))return 0;var
-k=[0,pd(H,p,b,a[2],f[1][4]),0]}else
+f=E(w,a[1]);if(f){if(hL(a[4]))return 0;var
+k=[0,pr(H,p,b,a[2],f[1][4]),0]}else
 var
 k=f;return k;case
 14:var
-i=pe(o,H,p,w,b,a[1],a[2]);if(i){var
-l=i[1],n=l[2],q=l[1];return y(bL,[0,q[1],[0,q[2],[0,n[1],[0,n[2],0]]]])}return i;case
+i=ps(o,H,p,w,b,a[1],a[2]);if(i){var
+l=i[1],n=l[2],q=l[1];return y(bM,[0,q[1],[0,q[2],[0,n[1],[0,n[2],0]]]])}return i;case
 15:var
 j=E(w,a[1]);if(j){var
-c=h(j[1][5],0),r=[0,c[3],[0,c[4],0]],t=[0,s(wH,b,m(d)),r],u=[0,s(0,b,m(d)),t],v=g(cH(c[2]),u);return g(c[1],v)}return j;case
+c=h(j[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,r(wY,b,m(d)),s],u=[0,r(0,b,m(d)),t],v=g(cL(c[2]),u);return g(c[1],v)}return j;case
 16:var
 x=y(function(a){var
-b=e(aH,fE(bZ,ke(a)));return[0,ke(a),b]},w);return g(y(function(a){var
-c=d4(b),d=[0,h(a[6],c)[2],0],e=d4(b);return g(h(a[6],e)[1],d)},w),x)}return 0},bY,D,ae,Z),aY=c7(e(function(a){return bH(k,a)},ap)),a1=c7(aX),_=c6(aY),a2=c6(a1),b0=cL(_);function
-v(a){return h(b0,bH(k,a))}var
-K=cL(a2);function
-a3(i){if(0===C[4][0]){var
-r=z(v,G),t=v(p),e=bQ(o),g=n(f(i),k);if(g)var
-h=z(function(a){return[0,[0,a,d],d]},r),a=function(a){return s(a,_,m(d))},c=a(t),j=aI(0,e),b=l(function(b){var
-d=dZ(k,b,c),e=d?l(function(d){var
+b=e(aJ,fM(bZ,kn(a)));return[0,kn(a),b]},w);return g(y(function(a){var
+c=d$(b),d=[0,h(a[6],c)[2],0],e=d$(b);return g(h(a[6],e)[1],d)},w),x)}return 0},bY,D,ae,Z),aY=db(e(function(a){return bI(k,a)},ap)),a2=db(aX),_=da(aY),a3=da(a2),b0=cP(_);function
+v(a){return h(b0,bI(k,a))}var
+K=cP(a3);function
+a4(i){if(0===C[4][0]){var
+s=x(v,G),t=v(p),e=bS(o),g=n(f(i),k);if(g)var
+h=x(function(a){return[0,[0,a,d],d]},s),a=function(a){return r(a,_,m(d))},c=a(t),j=aB(0,e),b=l(function(b){var
+d=d6(k,b,c),e=d?l(function(d){var
 f=d[1],e=l(function(c){var
-d=a(c);return cT(N(k,b),d)},f);if(e){var
-g=a(d[2]);return ht(c,N(k,b),g)}return e},i):d;if(e){if(h){var
-g=a(h[1][1][1]);return cT(N(k,b),g)}var
+d=a(c);return cX(N(k,b),d)},f);if(e){var
+g=a(d[2]);return hA(c,N(k,b),g)}return e},i):d;if(e){if(h){var
+g=a(h[1][1][1]);return cX(N(k,b),g)}var
 f=1}else
 var
 f=e;return f},j);else
 var
 b=g;var
 q=b?e:b;return q}return 0}var
-Y=a3(h(ay(v),X)),a4=l(function(a){var
-b=bH(k,a),c=m(d);return aZ(s(v(a),_,c),b)},ap),a5=a4?l(function(a){return hu(k,a)},ap):a4,a7=a5?l(function(a){var
-b=m(d);return aZ(s(h(K,a),a2,b),a)},aX):a5,a9=a7?al(wP,Z):a7;if(a9)var
-b1=I(C[7]),aq=b1||oX(a,[0,o],[0,C[5]]);else
+Y=a4(h(az(v),X)),a5=l(function(a){var
+b=bI(k,a),c=m(d);return a0(r(v(a),_,c),b)},ap),a6=a5?l(function(a){return hB(k,a)},ap):a5,a7=a6?l(function(a){var
+b=m(d);return a0(r(h(K,a),a3,b),a)},aX):a6,a9=a7?aj(w6,Z):a7;if(a9)var
+b1=I(C[7]),aq=b1||o$(a,[0,o],[0,C[5]]);else
 var
 aq=a9;var
-a_=aq?kf(o,eJ(C[4])):aq,a$=a_?i(a,1,C[3]):a_;if(a$)var
-b2=hy(C[5]),as=l(function(b){var
-c=cs(a,b[1]);return c?cs(a,b[2]):c},b2);else
+a_=aq?ko(o,eS(C[4])):aq,a$=a_?i(a,1,C[3]):a_;if(a$)var
+b2=hF(C[5]),as=l(function(b){var
+c=cw(a,b[1]);return c?cw(a,b[2]):c},b2);else
 var
 as=a$;if(as){var
-b3=g(O,[0,T,0]),at=ad(e(function(b){return ar(a,b)},b3));if(at){var
-au=ad(e(function(b){return hs(a,b)},aU));if(au){var
-b4=ph(o,eJ(C[4])),av=ad(e(function(b){return ar(a,[0,b,D])},b4));if(av){var
-ba=av[1],b5=oJ(C[5]),aw=ad(e(function(b){return oL(a,b)},b5));if(aw){var
-bb=aw[1],b6=oI(C[5]),ax=ad(e(cr(a),b6));if(ax){var
-az=g(O,[0,T,0]),b7=0,aB=ad(dk(function(k,g){if(typeof
+b3=g(O,[0,T,0]),au=ac(e(function(b){return ar(a,b)},b3));if(au){var
+av=ac(e(function(b){return hz(a,b)},aU));if(av){var
+b4=pv(o,eS(C[4])),aw=ac(e(function(b){return ar(a,[0,b,D])},b4));if(aw){var
+ba=aw[1],b5=oX(C[5]),ax=ac(e(function(b){return oZ(a,b)},b5));if(ax){var
+bb=ax[1],b6=oW(C[5]),ay=ac(e(cv(a),b6));if(ay){var
+aA=g(O,[0,T,0]),b7=0,aC=ac(dr(function(k,g){if(typeof
 g!=="number")switch(g[0]){case
 13:var
-C=g[4],aM=E(w,g[1]);if(aM){if(pg(g[3])&&i(a,0,C)&&i(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],C])){var
-aN=g[2],aO=aM[1];if(hE(C)){var
-aG=pc(k,h(aO[3],aN)),V=aG[2];if(i(j,0,[3,C,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]]))var
+C=g[4],aM=E(w,g[1]);if(aM){if(pu(g[3])&&i(a,0,C)&&i(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],C])){var
+aN=g[2],aO=aM[1];if(hL(C)){var
+aG=pq(k,h(aO[3],aN)),V=aG[2];if(i(j,0,[3,C,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]]))var
 aH=0;else
 var
 bf=v(V),bg=v(V),aH=[0,[6,[0,[0,e(v,aG[1]),bg],0],bf],0];var
 aP=[0,[4,v(V)],aH]}else
 var
-aP=[0,[9,[3,h(K,pd(H,p,k,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return wN}return wO;case
+aP=[0,[9,[3,h(K,pr(H,p,k,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return w4}return w5;case
 16:var
-X=g[3],t=g[2],aQ=g[1],bh=bG(o);if(n(f(w),bh)&&i(a,0,aQ)&&i(a,1,t)&&i(a,1,X)&&cs(a,X)){var
+X=g[3],t=g[2],aQ=g[1],bh=bH(o);if(n(f(w),bh)&&i(a,0,aQ)&&i(a,1,t)&&i(a,1,X)&&cw(a,X)){var
 aI=ar(a,[0,[0,t,t],D]);if(aI){var
-bi=aI[1],aJ=h(cr(a),X);if(aJ){var
-bj=aJ[1],aK=ad(e(function(f){var
-b=jI(a,K,az,D,aQ,t,ke(f));if(b){var
-c=n1(a,v,az,D,t,f[1][2]);if(c){var
-g=hC(0,0,f[1][2]);if(g)var
-i=e(aA,c[1]),d=[0,[0,b[1],i]];else
+bi=aI[1],aJ=h(cv(a),X);if(aJ){var
+bj=aJ[1],aK=ac(e(function(f){var
+b=jR(a,K,aA,D,aQ,t,kn(f));if(b){var
+c=od(a,v,aA,D,t,f[1][2]);if(c){var
+g=hJ(0,0,f[1][2]);if(g)var
+i=e(at,c[1]),d=[0,[0,b[1],i]];else
 var
 d=g}else
 var
@@ -5165,129 +5287,129 @@ d=c;var
 h=d}else
 var
 h=b;return h},w));if(aK){var
-bk=aK[1],bl=e(function(a){return pf(o,M,az,k,a)},w),aL=h(ay(v),bl),W=function(a){var
-b=bQ(o),c=e(function(a){var
-b=d4(k);return h(K,h(a[6],b)[2])},w),d=e(function(a){var
-b=d4(k);return e(K,h(a[6],b)[1])},w),f=a3(aL);return[0,[8,[0,aL,v(p),f,d,c,bk,bi,bj,b,a]]]};if(2<=o)return[0,W(1),0];var
-bm=[0,W(1),0];return[0,W(0),bm]}return wJ}return wK}return wL}return wM}var
-bn=0,x=e(function(a){return a[1]},w);function
+bk=aK[1],bl=e(function(a){return pt(o,M,aA,k,a)},w),aL=h(az(v),bl),W=function(a){var
+b=bS(o),c=e(function(a){var
+b=d$(k);return h(K,h(a[6],b)[2])},w),d=e(function(a){var
+b=d$(k);return e(K,h(a[6],b)[1])},w),f=a4(aL);return[0,[8,[0,aL,v(p),f,d,c,bk,bi,bj,b,a]]]};if(2<=o)return[0,W(1),0];var
+bm=[0,W(1),0];return[0,W(0),bm]}return w0}return w1}return w2}return w3}var
+bn=0,y=e(function(a){return a[1]},w);function
 Z(c,b,a){return[0,c,b,a,Y]}var
 G=0;if(typeof
 g==="number")var
-aS=v(p),r=[0,Z(h(ay(v),x),aS,u)];else
+aS=v(p),s=[0,Z(h(az(v),y),aS,u)];else
 switch(g[0]){case
 0:var
-y=[5,[0,b,b],g[1]],I=Z;G=1;break;case
+z=[5,[0,b,b],g[1]],I=Z;G=1;break;case
 1:var
-aU=[5,[0,b,b],g[1]],y=aU,I=function(c,b,a){return[1,c,b,a]};G=1;break;case
+aU=[5,[0,b,b],g[1]],z=aU,I=function(c,b,a){return[1,c,b,a]};G=1;break;case
 2:var
-aV=kd(a,p,w,k,g),r=z(function(a){return[4,v(a)]},aV);break;case
+aV=km(a,p,w,k,g),s=x(function(a){return[4,v(a)]},aV);break;case
 3:var
-aW=kd(a,p,w,k,g),r=z(function(a){return[4,v(a)]},aW);break;case
+aW=km(a,p,w,k,g),s=x(function(a){return[4,v(a)]},aW);break;case
 5:var
-_=g[1],aX=ar(a,[0,[0,_,_],d]),r=z(function(b){var
-c=S(a,b),d=v(p);return[2,h(ay(v),x),d,c]},aX);break;case
+_=g[1],aX=ar(a,[0,[0,_,_],d]),s=x(function(b){var
+c=S(a,b),d=v(p);return[2,h(az(v),y),d,c]},aX);break;case
 6:var
 L=E(w,g[1]);if(L){var
-N=pa(w,k,g);if(N){var
+N=po(w,k,g);if(N){var
 $=N[1],aa=i(a,1,g[2]),ab=aa?i(a,1,g[3]):aa;if(ab)var
-aY=v($[2]),aZ=v(L[1][1][2]),ac=[0,[5,[0,[0,[0,v($[1]),0],aZ],0],aY]];else
+aY=v($[2]),aZ=v(L[1][1][2]),ad=[0,[5,[0,[0,[0,v($[1]),0],aZ],0],aY]];else
 var
-ac=ab;var
-ae=ac}else
+ad=ab;var
+ae=ad}else
 var
 ae=N;var
 af=ae}else
 var
 af=L;var
-r=af;break;case
+s=af;break;case
 7:var
 ag=g[3],ah=g[2],ai=g[1],aj=E(w,ai),aR=0;if(aj){var
 ak=i(a,1,ah),al=ak?i(a,1,ag):ak;if(al){var
-a0=[5,ah,ag],y=a0,I=function(c,b,a){return[3,ai,c,b,a,Y]};G=1;aR=1}else
+a0=[5,ah,ag],z=a0,I=function(c,b,a){return[3,ai,c,b,a,Y]};G=1;aR=1}else
 var
 am=al}else
 var
 am=aj;if(!aR)var
-r=am;break;case
+s=am;break;case
 8:var
 an=i(a,1,g[2]);if(an)var
 a1=g[1],a2=1,O=l(function(b){return i(a,a2,b)},a1);else
 var
 O=an;if(O)var
-a4=J(a,b),a5=v(p),a6=hr(x,k),ao=[0,[0,h(ay(v),a6),a5,a4,0]];else
+a3=J(a,b),a5=v(p),a6=hy(y,k),ao=[0,[0,h(az(v),a6),a5,a3,0]];else
 var
 ao=O;var
-r=ao;break;case
+s=ao;break;case
 14:var
-ap=g[2],aq=g[1],P=pe(o,H,p,w,k,aq,ap);if(P){var
-as=P[1],at=as[2],au=as[1],av=oy(aq,ap,g[3]),Q=ar(a,[0,[0,av,av],D]);if(Q){var
-aw=Q[1],ax=F(d,aw[1]);if(ax)var
-A=function(a){return nZ(K,a)},a7=A(at[2]),a8=A(at[1]),a9=A(au[2]),aB=[0,[9,[6,A(au[1]),a9,a8,a7,aw]]];else
+ap=g[2],aq=g[1],P=ps(o,H,p,w,k,aq,ap);if(P){var
+as=P[1],au=as[2],av=as[1],aw=oM(aq,ap,g[3]),Q=ar(a,[0,[0,aw,aw],D]);if(Q){var
+ax=Q[1],ay=F(d,ax[1]);if(ay)var
+A=function(a){return ob(K,a)},a7=A(au[2]),a8=A(au[1]),a9=A(av[2]),aB=[0,[9,[6,A(av[1]),a9,a8,a7,ax]]];else
 var
-aB=ax;var
+aB=ay;var
 aC=aB}else
 var
 aC=Q;var
 aD=aC}else
 var
 aD=P;var
-r=aD;break;case
+s=aD;break;case
 15:var
 R=E(w,g[1]);if(R){var
 aE=i(a,1,g[4]);if(aE)var
 aF=i(a,0,g[2]),T=aF?i(a,0,g[3]):aF;else
 var
 T=aE;if(T)var
-B=h(R[1][5],0),a$=h(K,B[4]),ba=[0,[0,h(K,B[3]),a$]],bb=h(K,s(wI,k,m(d))),bc=h(K,s(0,k,m(d))),a_=0,bd=B[2],be=e(function(a){return e(K,a)},bd),U=[0,[9,[11,e(K,B[1]),be,bc,bb,ba,a_]]];else
+B=h(R[1][5],0),a$=h(K,B[4]),ba=[0,[0,h(K,B[3]),a$]],bb=h(K,r(wZ,k,m(d))),bc=h(K,r(0,k,m(d))),a_=0,bd=B[2],be=e(function(a){return e(K,a)},bd),U=[0,[9,[11,e(K,B[1]),be,bc,bb,ba,a_]]];else
 var
 U=T}else
 var
 U=R;var
-r=U;break;default:var
-r=0}if(G)var
-aT=ar(a,[0,[0,y,y],d]),r=z(function(b){var
-c=S(a,b),d=v(p);return I(h(ay(v),x),d,c)},aT);return[0,r,bn]},b7,D,ae,Z));if(aB){var
-bc=aB[1];if(C[7])var
-b8=aS[2],b9=aS[1],b_=v(p),ag=jM(bB,bc,[7,h(ay(v),ao),b_,b9,b8]);else
+s=U;break;default:var
+s=0}if(G)var
+aT=ar(a,[0,[0,z,z],d]),s=x(function(b){var
+c=S(a,b),d=v(p);return I(h(az(v),y),d,c)},aT);return[0,s,bn]},b7,D,ae,Z));if(aC){var
+bc=aC[1];if(C[7])var
+b8=aR[2],b9=aR[1],b_=v(p),ag=jV(bB,bc,[7,h(az(v),ao),b_,b9,b8]);else
 var
 ag=bc;var
 bd=n(f(g(ba,bb)),k),be=bd?l(function(a){var
-b=o4(a);return l(function(a){return oF(k,_,a)},b)},ag):bd,bf=be?G?oF(k,_,v(G[1])):1:be;if(bf){var
-b$=g(au[1],ax[1]),aC=g(at[1],b$),P=pj(aQ),Q=kg(D,C[2]),aa=P?e(function(a){var
-b=o2(k,Q,a[2]),c=a[1];return[0,e(function(a){return o2(k,Q,a)},c),b]},X):P,aD=P?c7(j$(k,p,G,aa)):P,aF=c6(aD),ah=cL(aF),ca=j9(ah,ah,aa),cb=h(ah,bH(k,p)),aG=z(function(a){return h(ah,bH(k,a))},G),bg=I(P);if(bg)var
-aj=bg;else{var
-br=n(f(X),k);if(br){var
-by=j$(k,p,G,aa),aN=l(function(a){var
-b=m(d);return aZ(s(h(cL(aF),a),aF,b),a)},by);if(aN)var
-bz=j$(k,p,G,aa),ak=l(function(a){var
-b=aI(0,k);return l(function(b){return eN(k,b,a)},b)},bz);else
+b=pg(a);return l(function(a){return oT(k,_,a)},b)},ag):bd,bf=be?G?oT(k,_,v(G[1])):1:be;if(bf){var
+b$=g(av[1],ay[1]),aD=g(au[1],b$),P=px(aQ),Q=kp(D,C[2]),ad=P?e(function(a){var
+b=pe(k,Q,a[2]),c=a[1];return[0,e(function(a){return pe(k,Q,a)},c),b]},X):P,aE=P?db(ki(k,p,G,ad)):P,aG=da(aE),ah=cP(aG),ca=kg(ah,ah,ad),cb=h(ah,bI(k,p)),aH=x(function(a){return h(ah,bI(k,a))},G),bg=I(P);if(bg)var
+ak=bg;else{var
+bq=n(f(X),k);if(bq){var
+by=ki(k,p,G,ad),aN=l(function(a){var
+b=m(d);return a0(r(h(cP(aG),a),aG,b),a)},by);if(aN)var
+bz=ki(k,p,G,ad),al=l(function(a){var
+b=aB(0,k);return l(function(b){return eW(k,b,a)},b)},bz);else
 var
-ak=aN;if(ak){var
-aO=z(function(a){return bH(k,a)},G),am=bH(k,p),aM=oY(am);if(aM)var
-bx=aI(0,Y),aP=l(function(a){var
-b=dZ(k,a,am),c=b?l(function(b){var
-d=b[2][2],e=g(y(j_,b[1]),d),f=N(k,a),c=l(function(a){return cT(f,a)},e);if(c){var
-h=b[2][1];return ht(am,N(k,a),h)}return c},aa):b;if(c){if(aO){var
-e=aO[1];return cT(N(k,a),e)}var
+al=aN;if(al){var
+aO=x(function(a){return bI(k,a)},G),am=bI(k,p),aL=pa(am);if(aL)var
+bx=aB(0,Y),aP=l(function(a){var
+b=d6(k,a,am),c=b?l(function(b){var
+d=b[2][2],e=g(y(kh,b[1]),d),f=N(k,a),c=l(function(a){return cX(f,a)},e);if(c){var
+h=b[2][1];return hA(am,N(k,a),h)}return c},ad):b;if(c){if(aO){var
+e=aO[1];return cX(N(k,a),e)}var
 d=1}else
 var
 d=c;return d},bx);else
 var
-aP=aM;var
+aP=aL;var
 an=aP}else
 var
-an=ak;var
+an=al;var
 ch=an?l(function(a){var
-c=a[1],b=l(function(a){return o3(k,aC,Q,a)},c);return b?o3(k,aC,Q,a[2]):b},X):an,aj=ch}else
+c=a[1],b=l(function(a){return pf(k,aD,Q,a)},c);return b?pf(k,aD,Q,a[2]):b},X):an,ak=ch}else
 var
-aj=br}if(aj){var
+ak=bq}if(ak){var
 cc=e(function(a){return 1},ag),cd=g(ba,bb),ce=function(p,R,ae,u,g){if(P){var
 j=function(V,i){if(typeof
 i!=="number"&&10===i[0]){var
-m=i[3],r=i[2],u=i[1];if(typeof
-u!=="number"&&6===u[0]){if(m){if(m[2])return 0;var
-v=m[1],g=u[1],z=i0(iV,e(aA,r),Q),B=z?1:z,C=B?hb(Q):B,D=C?l(function(a){return aE(a,f(p))},Q):C,E=D?n(f(v),k):D;if(E){var
+m=i[4],s=i[2],u=i[1];if(typeof
+u!=="number"&&6===u[0]){if(i[3])return 0;if(m){if(m[2])return 0;var
+v=m[1],g=u[1],z=i6(i1,e(at,s),Q),B=z?1:z,C=B?fI(Q):B,D=C?l(function(a){return aF(a,f(p))},Q):C,E=D?n(f(v),k):D;if(E){var
 y=0;if(typeof
 g!=="number")switch(g[0]){case
 0:var
@@ -5295,123 +5417,123 @@ x=g[2],w=g[1],K=0;y=1;break;case
 7:var
 M=g[2],o=g[1],P=0;if(typeof
 o!=="number"&&0===o[0]){var
-S=0;if(aG){var
+S=0;if(aH){var
 N=F(d,M);if(N){var
-x=o[2],w=o[1],K=[0,[0,[0,aG[1],M],g[3]]];y=1;P=1;S=1}else
+x=o[2],w=o[1],K=[0,[0,[0,aH[1],M],g[3]]];y=1;P=1;S=1}else
 var
 O=N}else
 var
-O=aG;if(!S)return O}if(!P)return 0;break}if(y){var
-T=jY(a,fw(r,0,p),aD,R),q=jY(a,p,aD,R),j=function(b,a){return s(a,b,ws)},U=o0(function(a){return j(q,a)},K),W=j(q,cb),X=function(a){return j(q,a)},Z=[0,j9(function(a){return j(T,a)},X,ca),W,U],ab=g6(r,p),_=function(q){var
-m=ad(e(wq,q[1]));if(m){var
+O=aH;if(!S)return O}if(!P)return 0;break}if(y){var
+T=j7(a,jt(s,0,p),aE,R),q=j7(a,p,aE,R),j=function(b,a){return r(a,b,wJ)},U=pc(function(a){return j(q,a)},K),W=j(q,cb),X=function(a){return j(q,a)},Z=[0,kg(function(a){return j(T,a)},X,ca),W,U],ad=nF(s,p),_=function(q){var
+m=ac(e(wH,q[1]));if(m){var
 o=q[2];if(o){var
-p=dn(q[3]);if(p){var
+p=du(q[3]);if(p){var
 _=p[1],R=A(t(a,ae,o[1]),_),aa=m[1],S=e(function(d){var
-b=g7(a,0,ab,d),c=a6(wr,b[2]);return[0,b[1],c]},aa);if(V){var
-r=V[1],u=r[1],y=u[1],z=y[1],B=u[2],C=r[2],D=jx(a,v),E=D[1],G=E[1],h=G[2],g=G[1],W=E[2],i=e(function(c){return aR(c,W,J(a,b))},h),H=n(f(h),k),K=H?n(f(z),k):H,M=K?F(d,B):K,N=M?gM(C,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):M,O=N?aE(g,k):N,P=O?I(L(s(g,h,d),d)):O;if(P){var
-X=jp(a,g,i,k,$(R),0),Y=jq(a,g,i,z,y[2],B,C,X),j=jr(a,g,i,D[2],w,x,S,Y);if(j)return a0(a,k,j[1]);var
+b=hb(a,0,ad,d),c=aZ(wI,b[2]);return[0,b[1],c]},aa);if(V){var
+s=V[1],u=s[1],y=u[1],z=y[1],B=u[2],C=s[2],D=jG(a,v),E=D[1],G=E[1],h=G[2],g=G[1],W=E[2],i=e(function(c){return aS(c,W,J(a,b))},h),H=n(f(h),k),K=H?n(f(z),k):H,M=K?F(d,B):K,N=M?gU(C,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):M,O=N?aF(g,k):N,P=O?I(L(r(g,h,d),d)):O;if(P){var
+X=jx(a,g,i,k,$(R),0),Y=jy(a,g,i,z,y[2],B,C,X),j=jz(a,g,i,D[2],w,x,S,Y);if(j)return a1(a,k,j[1]);var
 Q=j}else
 var
 Q=P;return Q}var
-Z=ac([0,$(R),0],k),l=jn(a,e(function(b){return J(a,b)},v),w,x,S,Z);return l?a0(a,k,l[1]):l}var
+Z=ab([0,$(R),0],k),l=js(a,e(function(b){return J(a,b)},v),w,x,S,Z);return l?a1(a,k,l[1]):l}var
 T=p}else
 var
 T=o;var
 U=T}else
 var
-U=m;return U};return h(j0(function(b,a){return wp},Y,k,_),Z)}var
+U=m;return U};return h(j9(function(b,a){return wG},Y,k,_),Z)}var
 G=0}else
 var
 G=E;var
 H=G}else
 var
-H=m;return H}return 0}return 0},m=n(u,Y),o=m?aE(0,Y):m;if(o){if(typeof
+H=m;return H}return 0}return 0},m=n(u,Y),o=m?aF(0,Y):m;if(o){if(typeof
 g!=="number"&&12===g[0]){var
 i=g[1],q=I(n(f(i),0));if(q){var
-r=V(jo(e(function(a){return a[1][1][1]},i)),i);return l(function(a){var
-b=a[2],c=b[1];return j([0,[0,[0,[0,a[1][1],a[1][2]],c[1][2]],c[2]]],b[2])},r)}return q}return j(0,g)}return o}return P},cf=v(p),cg=h(ay(v),X);return fU(a,aY,a1,ag,k,k,z(v,G),cg,cf,ce,aC,cd,cc,aQ)}var
-bh=aj}else
+s=V(jw(e(function(a){return a[1][1][1]},i)),i);return l(function(a){var
+b=a[2],c=b[1];return j([0,[0,[0,[0,a[1][1],a[1][2]],c[1][2]],c[2]]],b[2])},s)}return q}return j(0,g)}return o}return P},cf=v(p),cg=h(az(v),X);return f2(a,aY,a2,ag,k,k,x(v,G),cg,cf,ce,aD,cd,cc,aQ)}var
+bh=ak}else
 var
 bh=bf;var
 bi=bh}else
 var
-bi=aB;var
+bi=aC;var
 bj=bi}else
 var
-bj=ax;var
+bj=ay;var
 bk=bj}else
 var
-bk=aw;var
+bk=ax;var
 bl=bk}else
 var
-bl=av;var
+bl=aw;var
 bm=bl}else
 var
-bm=au;var
+bm=av;var
 bn=bm}else
 var
-bn=at;var
-bq=bn}else
+bn=au;var
+bo=bn}else
 var
-bq=as;return bq}function
-fV(b,a){return bD(b,a[1],a[2])}function
-pk(b,a){var
-c=fV(b,a[1]),d=c?fV(b,a[2]):c;return d?fV(b,a[3]):d}function
-pl(a){return typeof
+bo=as;return bo}function
+f3(b,a){return bE(b,a[1],a[2])}function
+py(b,a){var
+c=f3(b,a[1]),d=c?f3(b,a[2]):c;return d?f3(b,a[3]):d}function
+pz(a){return typeof
 a==="number"?0:0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-hG(a){return typeof
-a==="number"?a?d1(0):dN:d1(a[1])}function
-kh(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:bL(a):fS(b[1],a,c)}function
-hH(b,d,c){if(0===c[0])return hg(b,d[1],c[1]);var
-a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],f=g(bg(a[4],b),e),h=g(bg(a[3],b),f),i=g(bg(a[2],d[2]),h);return g(bg(a[1],d[1]),i)}function
-fW(b,a){if(b){var
-c=b[1],d=c[2];return bo(fR(c[1],a),d)}return a}function
-ki(P,o,a){function
-p(b){return af(x,P,am(a,b))}if(0===o[0]){var
+hN(a){return typeof
+a==="number"?a?d8(0):dT:d8(a[1])}function
+kq(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:bM(a):f0(b[1],a,c)}function
+hO(b,d,c){if(0===c[0])return hn(b,d[1],c[1]);var
+a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],f=g(bh(a[4],b),e),h=g(bh(a[3],b),f),i=g(bh(a[2],d[2]),h);return g(bh(a[1],d[1]),i)}function
+f4(b,a){if(b){var
+c=b[1],d=c[2];return bp(fZ(c[1],a),d)}return a}function
+kr(P,o,a){function
+p(b){return af(z,P,am(a,b))}if(0===o[0]){var
 q=o[1];switch(q[0]){case
 0:var
-an=q[1][5],t=s(wR,a,m(d)),u=am(a,0),Q=p(wS),f=na(Q,dM(u),Q,t,an),U=[0,aL(t),0],V=[0,aL(ab(u,u)),U];return[0,f[1],f[2],f[3],[0,f[4]],[0,[0,f[2],t]],V];case
+an=q[1][5],t=r(w8,a,m(d)),u=am(a,0),Q=p(w9),f=ni(Q,dS(u),Q,t,an),U=[0,aM(t),0],V=[0,aM(aa(u,u)),U];return[0,f[1],f[2],f[3],[0,f[4]],[0,[0,f[2],t]],V];case
 1:var
-R=q[3],v=R?[0,am(a,wT)]:R,S=p(0),g=nb(S,S,0);if(v)var
-C=v[1],D=[0,aL(ab(C,C)),0];else
+R=q[3],v=R?[0,am(a,w_)]:R,S=p(0),g=nj(S,S,0);if(v)var
+C=v[1],D=[0,aM(aa(C,C)),0];else
 var
 D=v;var
 X=g[4],Y=[0,[0,m(d),X]];return[0,g[1],g[2],g[3],[0,g[4]],Y,D];default:var
-w=am(a,0),h=nc(P,dM(w)),Z=[0,aL(ab(w,w)),0];return[0,h[1],h[2],h[3],[0,h[4]],0,Z]}}var
-y=o[1][7],z=s(wU,a,m(d)),e=s(wV,a,m(d)),T=am(a,wW),A=am(a,0),j=p(wX),i=dM(A),k=af(x,T,a8(ab(i,T),i)),l=dM(k),E=bp(i,l),F=ab(j,l),G=ab(j,E),_=ab(i,j),$=W(G),H=B(W(F),$),aa=W(_),I=x(W(z),aa),ac=r(m(c(2,b)),e),n=x(H,W(ai(B(H,x(W(e),I)),ac))),ad=g1(y,r(e,aL(n))),J=ai(F,e),K=g1(y,ai(G,e)),L=ai(I,W(e)),M=mC(0,J,K,L),N=g1(y,mC(1,J,K,L)),ae=a8(N,E),O=af(x,j,a8(e,af(B,a8(M,l),ae))),ag=[0,aL(z),0],ah=[0,aL(e),ag],aj=[0,aL(ab(k,k)),ah],ak=[0,aL(ab(A,A)),aj],al=bo(O,ad);return[0,O,r(W(e),n),al,[1,M,N],[0,[0,n,z]],ak]}function
-kj(b,c,a){if(0===c[0])switch(c[1][0]){case
-0:return h(b,am(a,wY));case
-1:return h(b,am(a,wZ));default:var
-e=m(d),f=m(d);return[0,m(d),f,e]}return h(b,am(a,w0))}function
-pm(a,c,b){return 0===c[0]?2===c[1][0]?hG(a):af(B,hG(a),b):af(B,hG(a),b)}function
-kk(j,c,i,h,b,g){if(b)var
-a=b[1],k=bJ([0,d,d],h),n=N(g,f(hH(c,k,a))),o=b[2],p=kk(j,c,i,bz(h),o,n),l=co(g,hH(c,k,a)),e=kj(i,a,l),m=[0,[0,ki(pm(j,a,e),a,l),e],p];else
+w=am(a,0),h=nk(P,dS(w)),Z=[0,aM(aa(w,w)),0];return[0,h[1],h[2],h[3],[0,h[4]],0,Z]}}var
+x=o[1][7],y=r(w$,a,m(d)),e=r(xa,a,m(d)),T=am(a,xb),A=am(a,0),j=p(xc),i=dS(A),k=af(z,T,a8(aa(i,T),i)),l=dS(k),E=bs(i,l),F=aa(j,l),G=aa(j,E),_=aa(i,j),$=W(G),H=B(W(F),$),ab=W(_),I=z(W(y),ab),ac=s(m(c(2,b)),e),n=z(H,W(ai(B(H,z(W(e),I)),ac))),ad=g9(x,s(e,aM(n))),J=ai(F,e),K=g9(x,ai(G,e)),L=ai(I,W(e)),M=mL(0,J,K,L),N=g9(x,mL(1,J,K,L)),ae=a8(N,E),O=af(z,j,a8(e,af(B,a8(M,l),ae))),ag=[0,aM(y),0],ah=[0,aM(e),ag],aj=[0,aM(aa(k,k)),ah],ak=[0,aM(aa(A,A)),aj],al=bp(O,ad);return[0,O,s(W(e),n),al,[1,M,N],[0,[0,n,y]],ak]}function
+ks(b,c,a){if(0===c[0])switch(c[1][0]){case
+0:return h(b,am(a,xd));case
+1:return h(b,am(a,xe));default:var
+e=m(d),f=m(d);return[0,m(d),f,e]}return h(b,am(a,xf))}function
+pA(a,c,b){return 0===c[0]?2===c[1][0]?hN(a):af(B,hN(a),b):af(B,hN(a),b)}function
+kt(j,c,i,h,b,g){if(b)var
+a=b[1],k=bK([0,d,d],h),n=N(g,f(hO(c,k,a))),o=b[2],p=kt(j,c,i,bC(h),o,n),l=cs(g,hO(c,k,a)),e=ks(i,a,l),m=[0,[0,kr(pA(j,a,e),a,l),e],p];else
 var
 m=b;return m}function
-kl(c,b,a){if(a){var
-e=a[2],f=kl(c,bz(b),e),h=a[1];return g(hH(c,bJ([0,d,d],b),h),f)}return a}function
-pn(e,c,a,b){if(a)var
-g=a[1],h=hH(e,bJ([0,d,d],c),g),j=N(b,f(h)),k=a[2],l=pn(e,bz(c),k,j),i=[0,[0,g,co(b,h)],l];else
+ku(c,b,a){if(a){var
+e=a[2],f=ku(c,bC(b),e),h=a[1];return g(hO(c,bK([0,d,d],b),h),f)}return a}function
+pB(e,c,a,b){if(a)var
+g=a[1],h=hO(e,bK([0,d,d],c),g),j=N(b,f(h)),k=a[2],l=pB(e,bC(c),k,j),i=[0,[0,g,cs(b,h)],l];else
 var
 i=a;return i}function
-km(a){if(typeof
+kv(a){if(typeof
 a==="number"){var
 c=m(d),e=m(d);return[0,m(d),e,c]}var
-b=a[1];return oS(b,bG(b))}function
-po(c,b,a){var
-d=hf(hj(c),a),f=V(hf(hj(c),b),d);return e(function(c){var
-d=r(a,c[1]);return x(r(b,c[2]),d)},f)}function
-pp(b,d,c,a){var
+b=a[1];return o6(b,bH(b))}function
+pC(c,b,a){var
+d=hm(hq(c),a),f=V(hm(hq(c),b),d);return e(function(c){var
+d=s(a,c[1]);return z(s(b,c[2]),d)},f)}function
+pD(b,d,c,a){var
 f=y(function(a){var
 c=typeof
-a==="number"?0:0===a[0]?fE(b,a[1]):jH(b,po(b,a[1],a[2])),d=e(aH,c);return g(pl(a),d)},a),h=g(bE(c),f);return g(cH(d),h)}function
-pq(c,b,u,t,s,r,j,g,q,p,d,l,k,a){var
+a==="number"?0:0===a[0]?fM(b,a[1]):jQ(b,pC(b,a[1],a[2])),d=e(aJ,c);return g(pz(a),d)},a),h=g(bF(c),f);return g(cL(d),h)}function
+pE(c,b,u,t,s,r,j,g,q,p,d,l,k,a){var
 m=ar(c,[0,[0,a,a],g]);if(m){if(l){var
-v=l[1],w=m[1],o=ad(e(function(d){if(typeof
-d==="number")return 0;else{if(0===d[0])return jI(c,b,j,g,k,a,d[1]);var
-i=d[1],e=hs(c,[1,[5,k,a],R(g)]);if(e){var
-f=n0(c,b,j,g,a,jH(j,po(j,i,d[2])));if(f)var
+v=l[1],w=m[1],o=ac(e(function(d){if(typeof
+d==="number")return 0;else{if(0===d[0])return jR(c,b,j,g,k,a,d[1]);var
+i=d[1],e=hz(c,[1,[5,k,a],R(g)]);if(e){var
+f=oc(c,b,j,g,a,jQ(j,pC(j,i,d[2])));if(f)var
 n=[0,e[1],f[1]],l=[0,[0,h(b,i),n]];else
 var
 l=f;var
@@ -5419,60 +5541,60 @@ m=l}else
 var
 m=e;return m}},d));if(o){var
 x=o[1];if(n(f(d),u)&&i(c,0,k)&&i(c,1,a))return e(function(a){var
-c=e(b,y(pl,d)),f=h(ay(b),p);return[0,[10,[0,e(function(a){return e(b,a)},q),f,c,x,r,w,v,t,a]]]},s);return w1}return w2}return w3}return w4}function
-pr(a){return typeof
+c=e(b,y(pz,d)),f=h(az(b),p);return[0,[10,[0,e(function(a){return e(b,a)},q),f,c,x,r,w,v,t,a]]]},s);return xg}return xh}return xi}return xj}function
+pF(a){return typeof
 a==="number"?a?0:1:a[1]}function
-ps(a){return[0,[0,[1,a]],[0,[1,[0,a]]],[0,[1,[0,[0,a]]]]]}function
-kn(d,c,a,b){return hz(pr(d),c,a,a,b)}function
-pt(g,f,e,d){if(0===f[0])switch(f[1][0]){case
+pG(a){return[0,[0,[1,a]],[0,[1,[0,a]]],[0,[1,[0,[0,a]]]]]}function
+kw(d,c,a,b){return hG(pF(d),c,a,a,b)}function
+pH(g,f,e,d){if(0===f[0])switch(f[1][0]){case
 0:var
 a=g[6];if(a)var
-h=a[1],i=h[2],j=ai(i,aL(h[1])),n=W(j),o=r(j,B(e,r(ai(d,i),n))),k=[0,x(m(b),o)];else
+h=a[1],i=h[2],j=ai(i,aM(h[1])),n=W(j),o=s(j,B(e,s(ai(d,i),n))),k=[0,z(m(b),o)];else
 var
 k=a;return k;case
 1:var
 c=g[6];if(c)var
-p=ai(d,c[1][2]),l=[0,x(x(m(b),e),p)];else
+p=ai(d,c[1][2]),l=[0,z(z(m(b),e),p)];else
 var
 l=c;return l;default:return 0}return 0}function
-pu(c,b){var
+pI(c,b){var
 d=typeof
 c==="number"?0:1,a=I(d);return a?0===b[0]?1:0:a}function
-pv(a){return 0===a[0]?2===a[1][0]?1:0:0}function
-pw(c,b){function
-a(a){return s(a,b,m(d))}if(0===c[1][0]){var
-e=a(w_);return[0,a(0),e]}var
-f=a(w$),g=ai(a(xa),f),h=a(xb);return[0,ai(a(0),h),g]}function
-px(d,c,a){var
-b=a[1];return pm(d,b,kj(c,b,a[2]))}function
-py(a,k,j,e,c){var
-l=c[1],f=px(a,k,c),n=kj(k,l,c[2]);function
-o(a){return ki(a,l,c[2])}function
-b(a){return[0,j3(a),0]}if(typeof
+pJ(a){return 0===a[0]?2===a[1][0]?1:0:0}function
+pK(c,b){function
+a(a){return r(a,b,m(d))}if(0===c[1][0]){var
+e=a(xp);return[0,a(0),e]}var
+f=a(xq),g=ai(a(xr),f),h=a(xs);return[0,ai(a(0),h),g]}function
+pL(d,c,a){var
+b=a[1];return pA(d,b,ks(c,b,a[2]))}function
+pM(a,k,j,e,c){var
+l=c[1],f=pL(a,k,c),n=ks(k,l,c[2]);function
+o(a){return kr(a,l,c[2])}function
+b(a){return[0,ka(a),0]}if(typeof
 a==="number")if(a)var
-t=[0,b(w7),0],g=[0,b(0),t];else
+t=[0,b(xm),0],g=[0,b(0),t];else
 var
-u=[0,b(w8),0],v=[0,b(w9),u],g=[0,b(0),v];else
+u=[0,b(xn),0],v=[0,b(xo),u],g=[0,b(0),v];else
 var
-g=oM(a[1],n,j);var
-w=o(f)[3],h=o(ps(e))[3];if(pr(a))var
-i=kn(a,e,f,h[3]);else
+g=o0(a[1],n,j);var
+w=o(f)[3],h=o(pG(e))[3];if(pF(a))var
+i=kw(a,e,f,h[3]);else
 var
 r=m(d),s=m(d),i=[0,m(d),s,r];var
-p=kn(a,e,f,h[2]),q=[0,kn(a,e,f,h[1]),p,i];return j4(function(a,b){return oN(q,w,n,j,a,b)},g)}function
-pz(i,h,c,b){var
-j=b[1],k=px(i,h,b),d=ps(c),a=ki(d,j,b[2]),f=[0,a[3][1],[0,a[3][2],[0,a[3][3],[0,a[2],0]]]],g=bL(k);return e(function(a){return j2(c,g,a)},f)}function
-pA(b,i,f,d,c,a){if(a){var
-j=a[2],k=a[1],l=pA(b,i,f,d,g(c,[0,k,0]),j),m=h(d,e(bz,g(c,j)));return as(i,as(f,bJ(b,k),m),l)}return b}function
-pB(a,f,e,d,c,b){if(c){var
-g=0,h=c[1];return pA(a,e,d,function(b){return pB(a,f,e,d,h,b)},g,b)}return b?a:f}function
-pC(a,d,c){var
-e=hm(a,c);function
+p=kw(a,e,f,h[2]),q=[0,kw(a,e,f,h[1]),p,i];return kb(function(a,b){return o1(q,w,n,j,a,b)},g)}function
+pN(i,h,c,b){var
+j=b[1],k=pL(i,h,b),d=pG(c),a=kr(d,j,b[2]),f=[0,a[3][1],[0,a[3][2],[0,a[3][3],[0,a[2],0]]]],g=bM(k);return e(function(a){return j$(c,g,a)},f)}function
+pO(b,i,f,d,c,a){if(a){var
+j=a[2],k=a[1],l=pO(b,i,f,d,g(c,[0,k,0]),j),m=h(d,e(bC,g(c,j)));return as(i,as(f,bK(b,k),m),l)}return b}function
+pP(a,f,e,d,c,b){if(c){var
+g=0,h=c[1];return pO(a,e,d,function(b){return pP(a,f,e,d,h,b)},g,b)}return b?a:f}function
+pQ(a,d,c){var
+e=ht(a,c);function
 f(b,c){return t(a,b,c)}var
-g=J(a,b);return z(function(a){return pB(u,g,C,f,d,a)},e)}function
-ko(e,c,o,n){var
-a=pC(e,c,o);if(a){var
-f=a[1],b=pC(e,c,n);if(b){var
+g=J(a,b);return x(function(a){return pP(u,g,C,f,d,a)},e)}function
+kx(e,c,o,n){var
+a=pQ(e,c,o);if(a){var
+f=a[1],b=pQ(e,c,n);if(b){var
 g=b[1],h=K(d,f[1]),i=h?K(g[2],d):h;if(i)var
 j=i;else{var
 m=K(f[2],d);if(m)return K(d,g[1]);var
@@ -5483,33 +5605,33 @@ k=b;var
 l=k}else
 var
 l=a;return l}function
-kp(b){if(b){var
+ky(b){if(b){var
 a=b[2],c=b[1];if(c){var
 e=c[2],q=c[1];if(e){var
-f=e[2],s=e[1];if(f){if(f[2])return m(d);if(a){var
+f=e[2],r=e[1];if(f){if(f[2])return m(d);if(a){var
 g=a[2],h=a[1];if(h){var
 i=h[2],t=h[1];if(i){var
 j=i[2],u=i[1];if(j){var
 v=j[1];if(j[2])return m(d);if(g){var
 k=g[1];if(k){var
 l=k[2],w=k[1];if(l){var
-n=l[2],y=l[1];if(n){var
-z=n[1];if(n[2])return m(d);if(g[2])return m(d);var
-A=dS(t,u,w,y),C=r(f[1],A),D=r(s,dS(t,v,w,z));return B(x(r(q,dS(u,v,y,z)),D),C)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}if(a){var
+n=l[2],x=l[1];if(n){var
+y=n[1];if(n[2])return m(d);if(g[2])return m(d);var
+A=dZ(t,u,w,x),C=s(f[1],A),D=s(r,dZ(t,v,w,y));return B(z(s(q,dZ(u,v,x,y)),D),C)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}if(a){var
 o=a[1];if(o){var
-p=o[2];return p?p[2]?m(d):a[2]?m(d):dS(q,s,o[1],p[1]):m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}function
-pD(a){if(a){var
+p=o[2];return p?p[2]?m(d):a[2]?m(d):dZ(q,r,o[1],p[1]):m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}function
+pR(a){if(a){var
 b=a[1][6];if(b)var
-c=pD(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=pR(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return xc}function
-pE(g,k,a){function
-b(a){return s(a,k,m(d))}function
+d=b;return d}return xt}function
+pS(g,k,a){function
+b(a){return r(a,k,m(d))}function
 l(a){var
-e=a[2],f=r(W(b(0)),e),c=0,d=0,g=a[1];return[0,[0,bA(function(b,a){return x(b,W(a))},g,f),d],c]}function
+e=a[2],f=s(W(b(0)),e),c=0,d=0,g=a[1];return[0,[0,bD(function(b,a){return z(b,W(a))},g,f),d],c]}function
 n(e){var
 a=e[6];if(a)var
-c=a[1],f=W(c[2]),g=r(W(b(0)),f),d=[0,[0,x(c[1],g),0],0];else
+c=a[1],f=W(c[2]),g=s(W(b(0)),f),d=[0,[0,z(c[1],g),0],0];else
 var
 d=a;return d}var
 j=0;if(typeof
@@ -5519,25 +5641,25 @@ switch(a[0]){case
 u=function(c){var
 a=c[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=b(0);return[0,[0,x(a[1],d),0],0]}return 0},f=u,c=a[1];break;case
+d=b(0);return[0,[0,z(a[1],d),0],0]}return 0},f=u,c=a[1];break;case
 3:var
 v=function(c){var
 a=c[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=a[1];return[0,[0,x(b(0),d),0],0]}return 0},f=v,c=a[1];break;case
+d=a[1];return[0,[0,z(b(0),d),0],0]}return 0},f=v,c=a[1];break;case
 4:var
 w=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-c=a[2],d=a[1],f=r(b(xd),c),g=[0,[0,x(r(b(xe),d),f),0],0],h=r(d,b(xf));return[0,[0,x(r(c,b(0)),h),0],g]}return 0},f=w,c=a[1];break;case
+c=a[2],d=a[1],f=s(b(xu),c),g=[0,[0,z(s(b(xv),d),f),0],0],h=s(d,b(xw));return[0,[0,z(s(c,b(0)),h),0],g]}return 0},f=w,c=a[1];break;case
 6:var
+x=function(a){var
+b=a[4];if(typeof
+b!=="number"&&1===b[0])return 0;return l(a)},f=x,c=a[1];break;case
+9:var
 y=function(a){var
 b=a[4];if(typeof
-b!=="number"&&1===b[0])return 0;return l(a)},f=y,c=a[1];break;case
-9:var
-z=function(a){var
-b=a[4];if(typeof
-b!=="number"&&1===b[0])return l(a);return 0},f=z,c=a[1];break;case
+b!=="number"&&1===b[0])return l(a);return 0},f=y,c=a[1];break;case
 10:var
 f=n,c=a[1];break;case
 11:var
@@ -5545,23 +5667,23 @@ A=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return n(a);return 0},f=A,c=a[1];break;case
 12:var
-i=pD(g);if(i)var
-C=b(0),o=bA(r,i[1],C),p=kp(e(function(a){return a[5]},g)),D=[0,bu(B(p,o)),0],q=[0,[0,x(p,o),D],0];else
+i=pR(g);if(i)var
+C=b(0),o=bD(s,i[1],C),p=ky(e(function(a){return a[5]},g)),D=[0,bx(B(p,o)),0],q=[0,[0,z(p,o),D],0];else
 var
 q=i;return q;case
 17:var
 t=a[1],f=function(d){var
-a=kp(e(function(a){return a[1]},g));function
+a=ky(e(function(a){return a[1]},g));function
 b(b){var
-c=[0,bu(B(a,b)),0];return[0,x(a,b),c]}var
-f=kp(og(t,k,e(function(a){return a[1]},g))),c=r(aL(d[2]),f),h=[0,b(bu(c)),0];return[0,b(c),h]},c=t;break;default:j=1}if(j)return 0;var
+c=[0,bx(B(a,b)),0];return[0,z(a,b),c]}var
+f=ky(ou(t,k,e(function(a){return a[1]},g))),c=s(aM(d[2]),f),h=[0,b(bx(c)),0];return[0,b(c),h]},c=t;break;default:j=1}if(j)return 0;var
 h=E(g,c);return h?f(h[1]):h}function
-eT(a){return e(function(a){return[0,a[1],a[2]]},a)}function
-d5(a){return e(function(a){var
+e2(a){return e(function(a){return[0,a[1],a[2]]},a)}function
+ea(a){return e(function(a){var
 c=m(b);return[0,a[3],c]},a)}function
-pF(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bE(hr(eT(c),b));return cH(pE(c,b,a))}function
-pG(g,m,k,L,K,t,a){if(typeof
+pT(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bF(hy(e2(c),b));return cL(pS(c,b,a))}function
+pU(g,m,k,L,K,t,a){if(typeof
 a==="number")return[0,[0,[0,u]],0];else
 switch(a[0]){case
 0:var
@@ -5569,96 +5691,96 @@ M=[5,[0,b,b],a[1]],n=M,o=function(a){return[0,a]};break;case
 1:var
 P=[5,[0,b,b],a[1]],n=P,o=function(a){return[1,a]};break;case
 5:var
-B=a[1],U=0,V=ar(g,[0,[0,B,B],d]);return[0,z(function(a){return[2,S(g,a)]},V),U];case
+B=a[1],U=0,V=ar(g,[0,[0,B,B],d]);return[0,x(function(a){return[2,S(g,a)]},V),U];case
 7:var
-C=a[3],D=a[2],F=a[1];if(!E(k,F))return xi;var
+C=a[3],D=a[2],F=a[1];if(!E(k,F))return xz;var
 I=0;if(i(g,1,D)&&i(g,1,C))var
 W=[5,D,C],n=W,o=function(a){return[7,F,a]};else
-I=1;if(I)return xh;break;case
+I=1;if(I)return xy;break;case
 8:var
 G=i(g,1,a[2]),X=0;if(G)var
 Y=a[1],Z=1,r=l(function(a){return i(g,Z,a)},Y);else
 var
 r=G;if(r)var
-_=J(g,b),$=hr(eT(k),t),H=[0,[4,h(ay(m),$),_]];else
+_=J(g,b),$=hy(e2(k),t),H=[0,[4,h(az(m),$),_]];else
 var
 H=r;return[0,H,X];default:var
 s=0;if(typeof
 a==="number")s=1;else
 switch(a[0]){case
 4:var
-v=a[3],w=a[2],x=i(g,1,[3,v,w]),R=x?i(g,1,[3,[2,w,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],v]):x,j=R;break;case
+v=a[3],w=a[2],y=i(g,1,[3,v,w]),R=y?i(g,1,[3,[2,w,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],v]):y,j=R;break;case
 17:var
 A=i(g,1,a[3]);if(A)var
-T=e(function(a){return a[1]},k),j=oh(f(a[2]),T);else
+T=e(function(a){return a[1]},k),j=ov(f(a[2]),T);else
 var
 j=A;break;case
 6:case
 9:var
-y=i(g,1,a[2]),j=y?i(g,0,a[3]):y;break;default:s=1}if(s)var
+z=i(g,1,a[2]),j=z?i(g,0,a[3]):z;break;default:s=1}if(s)var
 j=1;var
-p=j?pE(k,t,a):j;if(p){var
+p=j?pS(k,t,a):j;if(p){var
 Q=[0,p[1],p[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
 e=h(m,b[1]);return[0,[5,h(m,c),e]]}var
 d=[0,[3,h(m,c)]]}else
 var
-d=a;return d},Q)}return xg}var
-N=0,O=ar(g,[0,[0,n,n],hq(L,K)]);return[0,z(function(a){return o(S(g,a))},O),N]}function
-pH(a){if(typeof
+d=a;return d},Q)}return xx}var
+N=0,O=ar(g,[0,[0,n,n],hx(L,K)]);return[0,x(function(a){return o(S(g,a))},O),N]}function
+pV(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-pI(a){return 0===a[0]?2===a[1][0]?0:1:1}function
-xj(k,Z,aR,j,q,A,aQ){var
-a=j[1],_=an(a),C=j[6],t=kl(q,A,j[2]),$=j[3],v=[0,[0,$,$],q],aa=[0,f(t)],L=j[2],w=L?0===L[1][0]?0:1:L,aS=j[5],x=z(function(b){var
+pW(a){return 0===a[0]?2===a[1][0]?0:1:1}function
+xA(k,Z,aR,j,q,A,aQ){var
+a=j[1],_=an(a),C=j[6],t=ku(q,A,j[2]),$=j[3],v=[0,[0,$,$],q],aa=[0,f(t)],L=j[2],w=L?0===L[1][0]?0:1:L,aS=j[5],z=x(function(b){var
 c=typeof
-a==="number"?0:bQ(a[1]);return oH(b,c)},aS),aU=j[2],aT=0,aV=bM(v,f(t)),aN=kk(a,q,function(a){return fW(x,a)},A,aU,aT),p=e(function(f){var
+a==="number"?0:bS(a[1]);return oV(b,c)},aS),aU=j[2],aT=0,aV=bO(v,f(t)),aN=kt(a,q,function(a){return f4(z,a)},A,aU,aT),p=e(function(f){var
 g=f[2],b=f[1];function
-e(b){return kh(a,b,bo(bp(g,b),aV))}var
-h=b[1],i=bp(af(B,hG(a),g),h),j=kh(a,b[1],i),c=b[1],d=typeof
-a==="number"?1:0,k=b[6],l=b[5],m=d?a?[0,c[1],[0,c[2],0]]:bL(c):d,n=b[4],o=e(b[3]),p=b[2];return[0,e(b[1]),p,o,n,m,l,k,j]},aN);function
+e(b){return kq(a,b,bp(bs(g,b),aV))}var
+h=b[1],i=bs(af(B,hN(a),g),h),j=kq(a,b[1],i),c=b[1],d=typeof
+a==="number"?1:0,k=b[6],l=b[5],m=d?a?[0,c[1],[0,c[2],0]]:bM(c):d,n=b[4],o=e(b[3]),p=b[2];return[0,e(b[1]),p,o,n,m,l,k,j]},aN);function
 ab(b){var
-c=0,g=j[2],h=kk(a,q,function(b){if(typeof
-a==="number")return fW(x,b);var
-c=fW(x,b);return oT(km(a),c)},A,g,c),d=d4(b),k=bM(v,f(t));return e(function(e){var
+c=0,g=j[2],h=kt(a,q,function(b){if(typeof
+a==="number")return f4(z,b);var
+c=f4(z,b);return o7(kv(a),c)},A,g,c),d=d$(b),k=bO(v,f(t));return e(function(e){var
 b=e[1][3];if(typeof
-a==="number")return kh(a,b,bo(bp(e[2],b),k));var
-f=bp(e[2],b),g=af(B,f,bp(f,km(a))),c=a8(j5(km(a)),g),h=r(c[3],d),i=r(c[2],d),j=[0,r(c[1],d),i,h];return fS(a[1],b,j)},h)}function
-ac(l){return e(function(n){var
-o=m(b),d=n[3],p=d4(l),q=bM(v,f(t));if(typeof
+a==="number")return kq(a,b,bp(bs(e[2],b),k));var
+f=bs(e[2],b),g=af(B,f,bs(f,kv(a))),c=a8(kc(kv(a)),g),h=s(c[3],d),i=s(c[2],d),j=[0,s(c[1],d),i,h];return f0(a[1],b,j)},h)}function
+ad(l){return e(function(n){var
+o=m(b),d=n[3],p=d$(l),q=bO(v,f(t));if(typeof
 a==="number")var
 i=d;else
 var
-h=a[1],j=aw(bQ(h),d),k=e(function(a){return r(a,r(r(m(c(2,b)),q),p))},j),i=g(ao(bQ(h),d),k);return[0,i,o]},p)}var
-ae=e(function(a){return a[4]},p),ag=pn(q,A,j[2],0);function
+h=a[1],j=ay(bS(h),d),k=e(function(a){return s(a,s(s(m(c(2,b)),q),p))},j),i=g(ao(bS(h),d),k);return[0,i,o]},p)}var
+ae=e(function(a){return a[4]},p),ag=pB(q,A,j[2],0);function
 aW(d,c){if(typeof
 c!=="number")switch(c[0]){case
 15:var
-q=c[1],r=f(t),z=bM(v,f(t)),s=function(a){return fW(x,a)},i=E(p,q);if(i){var
+q=c[1],r=f(t),y=bO(v,f(t)),s=function(a){return f4(z,a)},i=E(p,q);if(i){var
 j=E(ag,q);if(j){var
-b=j[1],n=i[1],e=b[1],k=pw(b,d),l=k[2],m=k[1];if(pu(a,e)){var
-h=pt(n,e,m,l),u=h?[0,h[1],0]:h;return u}if(pv(e))return 0;var
-w=g([0,m,[0,l,0]],pz(a,s,r,b)),y=g(cH(py(a,s,z,r,b)),w);return g(n[3],y)}var
+b=j[1],n=i[1],e=b[1],k=pK(b,d),l=k[2],m=k[1];if(pI(a,e)){var
+h=pH(n,e,m,l),u=h?[0,h[1],0]:h;return u}if(pJ(e))return 0;var
+w=g([0,m,[0,l,0]],pN(a,s,r,b)),x=g(cL(pM(a,s,y,r,b)),w);return g(n[3],x)}var
 o=j}else
 var
 o=i;return o;case
 16:var
-A=ac(d);return pp(t,ab(d),A,ae)}return pF(p,d,c)}var
-ah=y(function(a){return a[7]},p),ai=j[7],aj=ai?e(function(a){return[0,a[8],a[2]]},p):ai,aX=bE(aj),aY=g(ah,g(dk(aW,w,q,aa,C),aX)),a0=g(bE(d5(p)),aY),ak=g(bE(eT(p)),a0),am=c7(ak),ap=c6(am),o=cL(ap);function
+A=ad(d);return pD(t,ab(d),A,ae)}return pT(p,d,c)}var
+ah=y(function(a){return a[7]},p),ai=j[7],ak=ai?e(function(a){return[0,a[8],a[2]]},p):ai,aX=bF(ak),aY=g(ah,g(dr(aW,w,q,aa,C),aX)),aZ=g(bF(ea(p)),aY),al=g(bF(e2(p)),aZ),am=db(al),ap=da(am),o=cP(ap);function
 a1(g,c){if(typeof
 c!=="number")switch(c[0]){case
 15:var
-M=c[1],Y=c[4],Z=c[3],$=c[2],N=f(t),aa=bM(v,f(t)),O=function(a){return fW(x,a)},n=E(p,M),X=0;if(n){var
+M=c[1],Y=c[4],Z=c[3],$=c[2],N=f(t),aa=bO(v,f(t)),O=function(a){return f4(z,a)},n=E(p,M),X=0;if(n){var
 r=E(ag,M);if(r){var
 F=i(k,1,Y);if(F)var
 G=i(k,0,$),s=G?i(k,0,Z):G;else
 var
 s=F;if(s){var
-d=r[1],H=n[1],m=d[1],B=pw(d,g),C=B[2],D=B[1];if(pu(a,m))var
-Q=pt(H,m,D,C),u=z(function(a){return[3,h(o,a)]},Q);else
-if(pv(m))var
+d=r[1],H=n[1],m=d[1],B=pK(d,g),C=B[2],D=B[1];if(pI(a,m))var
+Q=pH(H,m,D,C),u=x(function(a){return[3,h(o,a)]},Q);else
+if(pJ(m))var
 u=0;else
 var
-R=e(o,pz(a,O,N,d)),T=h(o,C),U=h(o,D),S=0,V=py(a,O,aa,N,d),W=e(function(a){return e(o,a)},V),u=[0,[11,e(o,H[3]),W,U,T,S,R]];var
+R=e(o,pN(a,O,N,d)),T=h(o,C),U=h(o,D),S=0,V=pM(a,O,aa,N,d),W=e(function(a){return e(o,a)},V),u=[0,[11,e(o,H[3]),W,U,T,S,R]];var
 y=u}else
 var
 y=s}else
@@ -5668,22 +5790,22 @@ I=y}else
 var
 I=n;return[0,I,X];case
 16:var
-A=c[3],ad=j[2];if(typeof
+A=c[3],ac=j[2];if(typeof
 a==="number")var
 P=1;else
 var
-K=i(k,1,A),L=K?cs(k,A):K,P=L?l(pI,ad):L;if(P){var
+K=i(k,1,A),L=K?cw(k,A):K,P=L?l(pW,ac):L;if(P){var
 af=c[2],ah=c[1],ai=typeof
-a==="number"?[0,J(k,b)]:h(cr(k),A),aj=ac(g),ak=ab(g),al=typeof
-a==="number"?w5:w6,am=typeof
-a==="number"?an(a):bQ(a[1]);return pq(k,o,_,am,al,w,t,q,ak,aj,ae,ai,ah,af)}return xk}return pG(k,o,p,w,q,g,c)}var
+a==="number"?[0,J(k,b)]:h(cv(k),A),aj=ad(g),ak=ab(g),al=typeof
+a==="number"?xk:xl,am=typeof
+a==="number"?an(a):bS(a[1]);return pE(k,o,_,am,al,w,t,q,ak,aj,ae,ai,ah,af)}return xB}return pU(k,o,p,w,q,g,c)}var
 aq=l(function(a){var
-b=m(d);return aZ(s(h(o,a),ap,b),a)},ak),as=aq?al(pH,C):aq;if(as){var
+b=m(d);return a0(r(h(o,a),ap,b),a)},al),as=aq?aj(pV,C):aq;if(as){var
 at=j[4];if(typeof
 a==="number")var
-au=a?kf(0,eJ(at)):1;else
+au=a?ko(0,eS(at)):1;else
 var
-aO=eJ(at),au=kf(a[1],aO);var
+aO=eS(at),au=ko(a[1],aO);var
 M=au}else
 var
 M=as;if(M){var
@@ -5694,8 +5816,8 @@ if(2<=W[1])var
 D=0;else{var
 H=j[5],V=0;if(H){var
 X=i(k,1,j[3]);if(X)var
-aP=hy(H[1]),D=l(function(a){var
-b=cs(k,a[1]);return b?cs(k,a[2]):b},aP);else{var
+aP=hF(H[1]),D=l(function(a){var
+b=cw(k,a[1]);return b?cw(k,a[2]):b},aP);else{var
 Y=X;V=1}}else{var
 Y=H;V=1}if(V)var
 D=Y}var
@@ -5703,35 +5825,35 @@ N=D}else
 var
 N=M;if(N)var
 a2=j[2],O=l(function(a){var
-b=0===a[0]?0:1;return cE(b,w)},a2);else
+b=0===a[0]?0:1;return cI(b,w)},a2);else
 var
 O=N;if(O){var
 av=I(j[7]);if(av)var
 F=av;else
 var
-aL=oX(k,a,j[5]),F=aL?l(pI,j[2]):aL}else
+aL=o$(k,a,j[5]),F=aL?l(pW,j[2]):aL}else
 var
 F=O;if(F){var
-a3=g(t,[0,v,0]),P=ad(e(function(a){return ar(k,a)},a3));if(P){var
-a4=y(function(a){return fP(w,q,a)},C),Q=ad(e(function(a){return hs(k,a)},a4));if(Q){var
-u=eJ(j[4]),a5=typeof
-a==="number"?a?[0,u[1],[0,u[2],0]]:[0,u[1],[0,u[2],[0,u[3],0]]]:ph(a[1],u),R=ad(e(function(a){return ar(k,[0,a,q])},a5));if(R){var
-ax=R[1],az=j[5];if(az)var
-a6=oJ(az[1]),G=ad(e(function(a){return oL(k,a)},a6));else
+a3=g(t,[0,v,0]),P=ac(e(function(a){return ar(k,a)},a3));if(P){var
+a4=y(function(a){return fX(w,q,a)},C),Q=ac(e(function(a){return hz(k,a)},a4));if(Q){var
+u=eS(j[4]),a5=typeof
+a==="number"?a?[0,u[1],[0,u[2],0]]:[0,u[1],[0,u[2],[0,u[3],0]]]:pv(a[1],u),R=ac(e(function(a){return ar(k,[0,a,q])},a5));if(R){var
+aw=R[1],ax=j[5];if(ax)var
+a6=oX(ax[1]),G=ac(e(function(a){return oZ(k,a)},a6));else
 var
-G=xl;if(G){var
-aA=G[1],K=j[5],a7=K?oI(K[1]):K,S=ad(e(cr(k),a7));if(S){var
-T=ad(dk(a1,w,q,aa,C));if(T){var
+G=xC;if(G){var
+aA=G[1],K=j[5],a7=K?oW(K[1]):K,S=ac(e(cv(k),a7));if(S){var
+T=ac(dr(a1,w,q,aa,C));if(T){var
 aB=T[1];if(j[7])var
-a9=Z[2],a_=Z[1],U=jM(aR,aB,[8,h(ay(o),aj),a_,a9]);else
+a9=Z[2],a_=Z[1],U=jV(aR,aB,[8,h(az(o),ak),a_,a9]);else
 var
 U=aB;var
-aC=n(f(g(ax,aA)),_);if(aC){var
-a$=jC(U),ba=g(ax,aA),aM=0,bb=j[4];if(typeof
+aC=n(f(g(aw,aA)),_);if(aC){var
+a$=jL(U),ba=g(aw,aA),aM=0,bb=j[4];if(typeof
 a==="number"&&!a){var
-aD=function(a){return n3(k,bb,q,a)};aM=1}if(!aM)var
+aD=function(a){return of(k,bb,q,a)};aM=1}if(!aM)var
 aD=function(a){return 0};var
-bc=g(Q[1],S[1]),bd=g(P[1],bc),be=e(o,ah),bf=d5(p),bg=h(ay(o),bf),bh=eT(p);return gh(jB(k,am,h(ay(o),bh),bg,be,bd,U,aD),ba,a$,aQ)}var
+bc=g(Q[1],S[1]),bd=g(P[1],bc),be=e(o,ah),bf=ea(p),bg=h(az(o),bf),bh=e2(p);return fd(jK(k,am,h(az(o),bh),bg,be,bd,U,aD),ba,a$,aQ)}var
 aE=aC}else
 var
 aE=T;var
@@ -5753,15 +5875,15 @@ aJ=P;var
 aK=aJ}else
 var
 aK=F;return aK}function
-xm(b){if(0===b[0])return[0,oc(b[1])];var
-a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bN(a[4]),g=bN(a[3]),h=bN(a[2]);return[1,[0,bN(a[1]),h,g,f,e,d,c]]}function
-pJ(e,d,c){var
+xD(b){if(0===b[0])return[0,oq(b[1])];var
+a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bP(a[4]),g=bP(a[3]),h=bP(a[2]);return[1,[0,bP(a[1]),h,g,f,e,d,c]]}function
+pX(e,d,c){var
 a=d;for(;;){if(a){var
-b=a[1];if(tu(b[1],c))return b[2];var
+b=a[1];if(tI(b[1],c))return b[2];var
 a=a[2];continue}return e}}function
-kq(a,c,b){var
-d=V(e(aA,a[2]),b);return g(V(a[1],c),d)}function
-b7(c){var
+kz(a,c,b){var
+d=V(e(at,a[2]),b);return g(V(a[1],c),d)}function
+b$(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -5770,102 +5892,102 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=b7(a[2]);return g(b7(a[1]),e)}}function
-bR(e,a,c){switch(a[0]){case
+e=b$(a[2]);return g(b$(a[1]),e)}}function
+bT(e,a,c){switch(a[0]){case
 0:var
-o=a[1];return bM([0,[0,o,o],d],c);case
+o=a[1];return bO([0,[0,o,o],d],c);case
 1:var
-q=a[1];return pJ(m(d),e,q);case
-2:return bu(bR(e,a[1],c));case
+q=a[1];return pX(m(d),e,q);case
+2:return bx(bT(e,a[1],c));case
 3:var
 i=a[2],g=a[1],h=B;break;case
 4:var
-i=a[2],g=a[1],h=x;break;case
+i=a[2],g=a[1],h=z;break;case
 5:var
-i=a[2],g=a[1],h=r;break;case
+i=a[2],g=a[1],h=s;break;case
 6:var
 i=a[2],g=a[1],h=ai;break;case
 7:var
-j=fm(a[2]),k=bR(e,a[1],c);if(j){if(j[1]){var
-l=W(k),p=function(a){return r(a,l)},n=gD(aS(mg(j)),p,l);return mf(j)?n:r(n,k)}return k}return m(b);default:return aL(bR(e,a[1],c))}var
-s=bR(e,i,N(c,f(b7(g))));return h(bR(e,g,c),s)}function
-dp(c,h,b){var
+j=fw(a[2]),k=bT(e,a[1],c);if(j){if(j[1]){var
+l=W(k),p=function(a){return s(a,l)},n=gL(aT(mp(j)),p,l);return mo(j)?n:s(n,k)}return k}return m(b);default:return aM(bT(e,a[1],c))}var
+r=bT(e,i,N(c,f(b$(g))));return h(bT(e,g,c),r)}function
+dv(c,h,b){var
 a=h;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=N(b,f(b7(e))),l=dp(c,a[2],k),m=g(dp(c,e,b),l);return[0,bR(c,a,b),m];case
+e=a[1],k=N(b,f(b$(e))),l=dv(c,a[2],k),m=g(dv(c,e,b),l);return[0,bT(c,a,b),m];case
 8:var
-n=dp(c,a[1],b);return[0,bR(c,a,b),n];case
+n=dv(c,a[1],b);return[0,bT(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],i=N(b,f(b7(d))),j=dp(c,a[2],i);return g(dp(c,d,b),j)}}function
-pK(i,h,g){var
+d=a[1],i=N(b,f(b$(d))),j=dv(c,a[2],i);return g(dv(c,d,b),j)}}function
+pY(i,h,g){var
 b=i,a=h,c=g;for(;;){if(a){var
-d=a[1],e=d[2],j=N(c,f(b7(e))),k=a[2],l=bR(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
-kr(c,a,b){if(a){var
-e=a[1],d=e[2],h=N(b,f(b7(d))),i=a[2],j=bR(c,d,b),k=kr([0,[0,e[1],j],c],i,h);return g(dp(c,d,b),k)}return a}function
-fX(a){return y(b7,a)}function
-pL(c,a,b){if(a)var
-d=a[1],g=N(b,f(b7(d))),h=pL(c,a[2],g),e=[0,bR(c,d,b),h];else
+d=a[1],e=d[2],j=N(c,f(b$(e))),k=a[2],l=bT(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
+kA(c,a,b){if(a){var
+e=a[1],d=e[2],h=N(b,f(b$(d))),i=a[2],j=bT(c,d,b),k=kA([0,[0,e[1],j],c],i,h);return g(dv(c,d,b),k)}return a}function
+f5(a){return y(b$,a)}function
+pZ(c,a,b){if(a)var
+d=a[1],g=N(b,f(b$(d))),h=pZ(c,a[2],g),e=[0,bT(c,d,b),h];else
 var
 e=a;return e}function
-pM(c,a,b){if(a){var
-d=a[1],e=N(b,f(b7(d))),h=pM(c,a[2],e);return g(dp(c,d,b),h)}return a}function
-hI(a){return 0===a[0]?fX(a[1]):b7(a[1])}function
-ks(c,b,a){if(b){var
-d=b[1],j=N(a,f(hI(d))),k=ks(c,b[2],j);if(0===d[0])var
-h=pM(c,d[1],a);else
+p0(c,a,b){if(a){var
+d=a[1],e=N(b,f(b$(d))),h=p0(c,a[2],e);return g(dv(c,d,b),h)}return a}function
+hP(a){return 0===a[0]?f5(a[1]):b$(a[1])}function
+kB(c,b,a){if(b){var
+d=b[1],j=N(a,f(hP(d))),k=kB(c,b[2],j);if(0===d[0])var
+h=p0(c,d[1],a);else
 var
-e=d[1],i=dp(c,e,a),h=[0,bR(c,e,a),i];return g(h,k)}return b}function
-hJ(c){var
+e=d[1],i=dv(c,e,a),h=[0,bT(c,e,a),i];return g(h,k)}return b}function
+hQ(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=ci(hJ,a)}return[0,b]}function
-kt(c){var
+b=b3(hQ,a)}return[0,b]}function
+kC(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=kt(a[2]);return r(kt(a[1]),d);case
+d=kC(a[2]);return s(kC(a[1]),d);case
 9:return a[1];default:return W(b)}}}function
-ku(n,h,a,g){if(a){var
-c=a[1],x=N(g,f(hI(c))),y=ku(n,h,a[2],x);if(0===c[0])var
-k=pL(h,c[1],g),o=[0,k,m(b),k,0,0,0,0,0];else
+kD(n,h,a,g){if(a){var
+c=a[1],x=N(g,f(hP(c))),y=kD(n,h,a[2],x);if(0===c[0])var
+k=pZ(h,c[1],g),o=[0,k,m(b),k,0,0,0,0,0];else
 var
-l=bR(h,c[1],g),q=hJ(l),i=bf(aI(0,n),q),d=hJ(i[2]),j=e(hJ,i[1]),r=0,s=0,t=0,u=0,v=[0,l],w=e(function(a){return aZ(a,d)?m(b):ai(a,d)},j),o=[0,j,kt(d),w,v,u,t,s,r];var
+l=bT(h,c[1],g),q=hQ(l),i=bg(aB(0,n),q),d=hQ(i[2]),j=e(hQ,i[1]),r=0,s=0,t=0,u=0,v=[0,l],w=e(function(a){return a0(a,d)?m(b):ai(a,d)},j),o=[0,j,kC(d),w,v,u,t,s,r];var
 p=[0,o,y]}else
 var
 p=a;return p}function
-kv(a){return e(function(a){return[0,a[2],d]},a)}function
-kw(a){var
-b=y(hI,a[4]),c=g(fX(e(aH,a[3])),b);return g(kv(a[2]),c)}function
-hK(a){var
-b=co(0,kv(a[2])),c=aI(0,f(a[1]));return kq(a,e(function(a){return[0,[0,a]]},c),b)}function
-kx(b,d){var
+kE(a){return e(function(a){return[0,a[2],d]},a)}function
+kF(a){var
+b=y(hP,a[4]),c=g(f5(e(aJ,a[3])),b);return g(kE(a[2]),c)}function
+hR(a){var
+b=cs(0,kE(a[2])),c=aB(0,f(a[1]));return kz(a,e(function(a){return[0,[0,a]]},c),b)}function
+kG(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return al(function(a){return aG(e,a)},b);case
+e=a[1];return aj(function(a){return aI(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=kx(b,a[1]);if(c){var
+c=kG(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-pN(d){var
+p1(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=I(al(function(b){return function(a){return tu(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=I(aj(function(b){return function(a){return tI(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-pO(a){var
-u=e(aA,a[2]),d=g(a[1],u),h=f(a[1]),o=ae(xp,h),p=o?ae(h,xq):o,q=p?ae(h,f(a[4])):p,r=q?ae(f(a[4]),xr):q,s=r?pN(d):r;if(s){var
+p2(a){var
+u=e(at,a[2]),d=g(a[1],u),h=f(a[1]),o=ae(xG,h),p=o?ae(h,xH):o,q=p?ae(h,f(a[4])):p,r=q?ae(f(a[4]),xI):q,s=r?p1(d):r;if(s){var
 c=d,b=a[3];for(;;){if(b){var
-j=b[1],k=j[1],m=I(al(function(b){return function(a){return aG(b,a)}}(k),c)),n=m?kx(c,j[2]):m;if(n){var
+j=b[1],k=j[1],m=I(aj(function(b){return function(a){return aI(b,a)}}(k),c)),n=m?kG(c,j[2]):m;if(n){var
 c=[0,k,c],b=b[2];continue}var
 t=n}else
 var
@@ -5874,11 +5996,11 @@ i=t;break}}else
 var
 i=s;if(i){var
 v=a[4];return l(function(b){var
-c=0===b[0]?b[1]:[0,b[1],0],f=g(e(aA,a[3]),d);return l(function(a){return kx(f,a)},c)},v)}return i}function
-d6(f,e,g){var
-h=g[1],a=ci(function(a){return d6(f,e,a)},h);switch(a[0]){case
-0:return s(a[1],f,[0,d,b]);case
-1:return s(a[1],e,[0,d,b]);case
+c=0===b[0]?b[1]:[0,b[1],0],f=g(e(at,a[3]),d);return l(function(a){return kG(f,a)},c)},v)}return i}function
+eb(f,e,g){var
+h=g[1],a=b3(function(a){return eb(f,e,a)},h);switch(a[0]){case
+0:return r(a[1],f,[0,d,b]);case
+1:return r(a[1],e,[0,d,b]);case
 2:return[0,a[1],b];case
 3:return[2,a[1],a[2]];case
 4:return[3,a[1],a[2]];case
@@ -5888,7 +6010,7 @@ h=g[1],a=ci(function(a){return d6(f,e,a)},h);switch(a[0]){case
 8:var
 c=a[1];return[4,c,c];case
 9:return[6,a[1]];default:return[0,d,b]}}function
-ky(d){var
+kH(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 10:return 0;case
@@ -5899,103 +6021,103 @@ b=a[1];continue;case
 0:case
 1:case
 2:return 1;default:var
-c=ky(a[1]);if(c){var
+c=kH(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-b8(g,f,e){var
+ca(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=dg(g,b[1],a[1]);if(c){var
+c=dm(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-xs(a){var
+xJ(a){var
 b=a[4],d=0;if(typeof
 b!=="number"&&0===b[0]){var
 c=[0,b[1],0];d=1}if(!d)var
 c=0;var
 e=g(a[3],c);return g(a[1],e)}function
-hL(a){return f(a[1])}function
-pP(a){var
-b=f(fX(e(aH,a[3])));return N(f(a[2]),b)}function
-pQ(a){var
-b=f(a[2]),c=a[3];return pK(hK(a),c,b)}function
-pR(a){var
-b=pP(a),c=a[4],d=pQ(a);return ku(hL(a),d,c,b)}function
-pS(a,b){var
-c=y(hI,a[4]),d=g(fX(e(aH,a[3])),c);return g(b,e(function(a){return a[1][1]},d))}function
-pT(b,a){return l(function(a){if(0===a[0]){var
-c=hL(b);return n(f(a[1]),c)}return 1},a)}function
-kz(f,e){function
-a(a){return s(a,e,[0,d,b])}var
+hS(a){return f(a[1])}function
+p3(a){var
+b=f(f5(e(aJ,a[3])));return N(f(a[2]),b)}function
+p4(a){var
+b=f(a[2]),c=a[3];return pY(hR(a),c,b)}function
+p5(a){var
+b=p3(a),c=a[4],d=p4(a);return kD(hS(a),d,c,b)}function
+p6(a,b){var
+c=y(hP,a[4]),d=g(f5(e(aJ,a[3])),c);return g(b,e(function(a){return a[1][1]},d))}function
+p7(b,a){return l(function(a){if(0===a[0]){var
+c=hS(b);return n(f(a[1]),c)}return 1},a)}function
+kI(f,e){function
+a(a){return r(a,e,[0,d,b])}var
 c=[0,d,b];switch(f){case
 0:var
-g=a(xu);return[0,a(0),g,c];case
+g=a(xL);return[0,a(0),g,c];case
 1:var
-h=a(xv),i=a(xw);return[0,a(0),i,h];default:return[0,c,c,c]}}function
-kA(f,e){function
-a(a){return s(a,e,[0,d,b])}var
+h=a(xM),i=a(xN);return[0,a(0),i,h];default:return[0,c,c,c]}}function
+kJ(f,e){function
+a(a){return r(a,e,[0,d,b])}var
 c=[0,d,b];switch(f){case
-0:return[0,c,c,a(xx)];case
+0:return[0,c,c,a(xO)];case
 1:var
-g=a(xy),h=a(xz);return[0,a(xA),h,g];default:var
-i=a(xB),j=a(xC);return[0,a(0),j,i]}}function
-pU(t,s,k,j,r,d){var
-c=bj(k,j,r,d);if(0===d[0])var
-e=bF(d[1],c);else
+g=a(xP),h=a(xQ);return[0,a(xR),h,g];default:var
+i=a(xS),j=a(xT);return[0,a(0),j,i]}}function
+p8(t,s,k,j,r,d){var
+c=bk(k,j,r,d);if(0===d[0])var
+e=bG(d[1],c);else
 var
-a=d[1],f=fL(a,c),g=fM(a,c),h=fN(a,c),i=dV(a,c),l=P([3,[4,h,g],[4,i,f]],fK(a)),m=P([2,[4,h,f],[4,i,g]],eK(a)),n=M(function(b,a){return[2,b,a]},m,l),o=P(a[5],n),p=hn(a,c),q=P(ho(a,c),p),e=M(function(b,a){return[3,b,a]},q,o);return j6(t,e,P([5,[0,b,b],s],cq(d3(k,j,d2(d)),e)))}function
-pV(c,b,a){return b?fO(c,b[1],a):a?0:1}function
-pW(d,b,i,a,c,o,h,m,g){var
-p=an(b),j=n(f(c),p),k=j?pV(d,a,h):j,l=k?pV(d,a,g):k;if(l){var
-q=e(function(c){return pU(b,i,a,g,m,c)},c),r=e(function(c){return pU(b,i,a,h,o,c)},c);return ko(d,an(b),r,q)}return l}function
-pX(c,j,d,b,a){var
-e=aE(d,j),f=e?bn(b,a):e;if(f)var
-k=cP(c,a)[2],h=[0,cP(c,b)[1],k],l=[0,cP(c,dH(a,b)),0],i=[0,[0,h,h,g(ac(u,d),l)]];else
+a=d[1],f=fT(a,c),g=fU(a,c),h=fV(a,c),i=d2(a,c),l=P([3,[4,h,g],[4,i,f]],fS(a)),m=P([2,[4,h,f],[4,i,g]],eT(a)),n=M(function(b,a){return[2,b,a]},m,l),o=P(a[5],n),p=hu(a,c),q=P(hv(a,c),p),e=M(function(b,a){return[3,b,a]},q,o);return kd(t,e,P([5,[0,b,b],s],cu(d_(k,j,d9(d)),e)))}function
+p9(c,b,a){return b?fW(c,b[1],a):a?0:1}function
+p_(d,b,i,a,c,o,h,m,g){var
+p=an(b),j=n(f(c),p),k=j?p9(d,a,h):j,l=k?p9(d,a,g):k;if(l){var
+q=e(function(c){return p8(b,i,a,g,m,c)},c),r=e(function(c){return p8(b,i,a,h,o,c)},c);return kx(d,an(b),r,q)}return l}function
+p$(c,j,d,b,a){var
+e=aF(d,j),f=e?bo(b,a):e;if(f)var
+k=cS(c,a)[2],h=[0,cS(c,b)[1],k],l=[0,cS(c,dM(a,b)),0],i=[0,[0,h,h,g(ab(u,d),l)]];else
 var
 i=f;return i}function
-kB(a){if(a){var
+kK(a){if(a){var
 b=a[1];if(b)var
-c=kB(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=kK(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return xF}function
-pY(c,b,a){if(b){if(a){var
-d=b[1],f=pY(c,b[2],a[2]),g=a[1],h=function(b,a){return A(t(c,d,b),a)},i=function(a){return a};return aT(function(a){return t(c,d,a)},i,h,g,f)}var
+d=b;return d}return xW}function
+qa(c,b,a){if(b){if(a){var
+d=b[1],f=qa(c,b[2],a[2]),g=a[1],h=function(b,a){return A(t(c,d,b),a)},i=function(a){return a};return aU(function(a){return t(c,d,a)},i,h,g,f)}var
 e=a}else
 var
 e=b;return e}function
-pZ(c,b,a){if(b){if(a){var
-d=pZ(c,b[2],a[2]);return A(t(c,b[1],a[1]),d)}return u}return u}function
-hM(a){return aq(function(d,a){var
-e=c(2,b);return G(cf(bK(d),e),a)},d,a)}function
-hN(a,i,h){var
+qb(c,b,a){if(b){if(a){var
+d=qb(c,b[2],a[2]);return A(t(c,b[1],a[1]),d)}return u}return u}function
+hT(a){return aq(function(d,a){var
+e=c(2,b);return G(cj(bL(d),e),a)},d,a)}function
+hU(a,i,h){var
 d=f(i);function
 t(g,e,f){var
-d=[0,b,c(2,b)];return[0,aa(cP(a,a_(dG(e,f),d)))]}var
-j=kB(e(function(b){return eA(a,t,b)},i));if(j){var
-v=j[1],w=function(b,c,e){return pX(a,d,b,c,e)},k=kB(e(function(b){return eA(a,w,b)},i));if(k){var
-x=function(b){return cP(a,b)},o=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),A=e(function(b){return pZ(a,b,e(function(a){return a[2]},v))},o),B=V(aI(0,d),o),E=e(function(c){var
-i=pY(a,c[2],z),j=c[1],d=[0,J(a,b),0],e=g(ac(u,j),d);function
-f(b,a){return C(b,ax(a))}function
-h(a){return $(ax(a))}return aT(function(a){return a},h,f,e,i)},B),p=n(f(h),d),q=p?l(function(a){return n(f(a),d)},h):p;if(q)var
-G=c(2,b),H=cf(cI(a),G),I=hM(A),m=F(D(c(2,c(2,b)),I),H);else
+d=[0,b,c(2,b)];return[0,ad(cS(a,a_(dL(e,f),d)))]}var
+j=kK(e(function(b){return eI(a,t,b)},i));if(j){var
+v=j[1],w=function(b,c,e){return p$(a,d,b,c,e)},k=kK(e(function(b){return eI(a,w,b)},i));if(k){var
+x=function(b){return cS(a,b)},o=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),A=e(function(b){return qb(a,b,e(function(a){return a[2]},v))},o),B=V(aB(0,d),o),E=e(function(c){var
+i=qa(a,c[2],z),j=c[1],d=[0,J(a,b),0],e=g(ab(u,j),d);function
+f(b,a){return C(b,au(a))}function
+h(a){return $(au(a))}return aU(function(a){return a},h,f,e,i)},B),p=n(f(h),d),q=p?l(function(a){return n(f(a),d)},h):p;if(q)var
+G=c(2,b),H=cj(cM(a),G),I=hT(A),m=F(D(c(2,c(2,b)),I),H);else
 var
 m=q;if(m){var
-K=c(2,b),L=cf(cI(a),K),M=hM(cH(E));return F(D(c(2,c(2,b)),M),L)}var
+K=c(2,b),L=cj(cM(a),K),M=hT(cL(E));return F(D(c(2,c(2,b)),M),L)}var
 r=m}else
 var
 r=k;var
 s=r}else
 var
 s=j;return s}function
-eU(a){return l(function(a){return I(dK(a))},a)}function
-a1(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+e3(a){return l(function(a){return I(dQ(a))},a)}function
+a2(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 bb(a){return[0,a[1],a[2]]}function
-hO(b,a){var
+hV(b,a){var
 d=f(a),c=n(f(b),d);if(c){var
-e=V(b,a);return l(function(a){return bn(a[1],a[2])},e)}return c}function
-kC(c,a,b){var
-d=V(a,b),g=V(aI(c,f(a)),d);return e(function(a){return[1,a[1],a[2][1],a[2][2]]},g)}function
-eV(e,k,j,h){var
+e=V(b,a);return l(function(a){return bo(a[1],a[2])},e)}return c}function
+kL(c,a,b){var
+d=V(a,b),g=V(aB(c,f(a)),d);return e(function(a){return[1,a[1],a[2][1],a[2][2]]},g)}function
+e4(e,k,j,h){var
 c=k,b=j,a=h;for(;;){if(c)if(b)if(a){var
 f=a[1],l=i(e,1,[3,bb(c[1]),f]),g=l||i(e,1,[3,f,bb(b[1])]);if(!g){var
 c=c[2],b=b[2],a=a[2];continue}var
@@ -6006,25 +6128,25 @@ var
 d=b;else
 var
 d=c;return d}}function
-kD(b,e,c){var
-a=eA(b,function(a,c,d){return pX(b,e,a,c,d)},c);return a?K(d,a[1][2][1]):a}function
-kE(f,e,b,a){var
+kM(b,e,c){var
+a=eI(b,function(a,c,d){return p$(b,e,a,c,d)},c);return a?K(d,a[1][2][1]):a}function
+kN(f,e,b,a){var
 c=a[1],d=b[1],g=c[2],h=a[2],i=d[2],j=b[2],k=[0,d[1],[0,c[1],0]];return l(function(a){var
 b=[0,i,[0,g,0]];return l(function(b){var
 c=[0,j,[0,h,0]];return l(function(c){var
-d=bb(c),g=bb(b);return cR(f,e,[0,bb(a),g,d])},c)},b)},k)}function
-kF(a){switch(a[0]){case
+d=bb(c),g=bb(b);return cV(f,e,[0,bb(a),g,d])},c)},b)},k)}function
+kO(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=g(a1(a[3]),c),e=g(a1(a[2]),d);return g(a1(a[1]),e);case
+c=[0,a[4],0],d=g(a2(a[3]),c),e=g(a2(a[2]),d);return g(a2(a[1]),e);case
 1:var
-b=a[3],f=b?a1(b[1]):b,h=g(a1(a[2]),f);return g(a1(a[1]),h);default:return a1(a[1])}}function
-p0(a){return 1===a[0]?0:1}function
-fY(b,a){var
-c=a_(a,a);return bn(a_(b,b),c)?a:b}function
-fZ(b,a,e,d){var
-c=dY(b,a,bb(e));return c?dY(b,a,bb(d)):c}function
-p1(f,e,c,a){switch(e[0]){case
-0:if(c){if(c[2])return 0;if(a)return a[2]?0:fZ(f,e[1],c[1],a[1]);var
+b=a[3],f=b?a2(b[1]):b,h=g(a2(a[2]),f);return g(a2(a[1]),h);default:return a2(a[1])}}function
+qc(a){return 1===a[0]?0:1}function
+f6(b,a){var
+c=a_(a,a);return bo(a_(b,b),c)?a:b}function
+f7(b,a,e,d){var
+c=d5(b,a,bb(e));return c?d5(b,a,bb(d)):c}function
+qd(f,e,c,a){switch(e[0]){case
+0:if(c){if(c[2])return 0;if(a)return a[2]?0:f7(f,e[1],c[1],a[1]);var
 x=a}else
 var
 x=c;return x;case
@@ -6033,7 +6155,7 @@ i=c[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;if(a){var
 k=a[2];if(k){var
 l=k[2];if(l){if(l[2])return 0;var
-y=fZ(f,e[1],c[1],a[1]),z=y?fZ(f,e[2],i[1],k[1]):y;if(z)return fZ(f,e[3],j[1],l[1]);var
+y=f7(f,e[1],c[1],a[1]),z=y?f7(f,e[2],i[1],k[1]):y;if(z)return f7(f,e[3],j[1],l[1]);var
 A=z}else
 var
 A=l;var
@@ -6056,7 +6178,7 @@ m=c[2];if(m){var
 n=m[2];if(n){if(n[2])return 0;if(a){var
 o=a[2];if(o){var
 p=o[2];if(p){if(p[2])return 0;var
-P=[0,bb(fY(n[1],p[1])),0],Q=[0,bb(fY(m[1],o[1])),P];return fO(f,e,[0,bb(fY(c[1],a[1])),Q])}var
+P=[0,bb(f6(n[1],p[1])),0],Q=[0,bb(f6(m[1],o[1])),P];return fW(f,e,[0,bb(f6(c[1],a[1])),Q])}var
 E=p}else
 var
 E=o;var
@@ -6075,11 +6197,11 @@ q=c[2];if(q){var
 r=q[2];if(r){if(r[2])return 0;if(a){var
 s=a[2];if(s){var
 t=s[2];if(t){if(t[2])return 0;var
-g=t[1],h=r[1],N=0,R=0;if(bn(h,[0,d,b])&&bn([0,d,b],g))var
+g=t[1],h=r[1],N=0,R=0;if(bo(h,[0,d,b])&&bo([0,d,b],g))var
 H=[0,d,b];else
 N=1;if(N)var
-O=a_(g,g),H=bn(a_(h,h),O)?h:g;var
-S=[0,bb(H),R],T=[0,bb(fY(q[1],s[1])),S],I=fO(f,e,[0,bb(fY(c[1],a[1])),T]);if(I)return fZ(f,dj(e[2]),h,g);var
+O=a_(g,g),H=bo(a_(h,h),O)?h:g;var
+S=[0,bb(H),R],T=[0,bb(f6(q[1],s[1])),S],I=fW(f,e,[0,bb(f6(c[1],a[1])),T]);if(I)return f7(f,dq(e[2]),h,g);var
 J=I}else
 var
 J=t;var
@@ -6097,78 +6219,78 @@ L=q;var
 M=L}else
 var
 M=c;return M}}function
-p2(a){var
-c=s(xJ,a,[0,d,b]),e=s(xK,a,[0,d,b]);return[0,s(0,a,[0,d,b]),e,c]}function
-hP(a){var
-c=s(xL,a,[0,d,b]),e=s(xM,a,[0,d,b]);return[0,[0,s(0,a,[0,d,b]),e],c]}function
-kG(d,c,b,a){var
-e=b5(d,c,b,a);return v(b5(d,c,b,a),e)}var
-cU=c(2,c(2,c(2,c(2,c(2,q(c(2,b)))))));function
-d7(e){var
-a=aB(cU,e);if(a){var
-f=h(gF(c(2,b)),cU);return[0,a[1][2],f]}return[0,d,b]}var
-kH=[0,[0,d,b],[0,d,b],[0,d,b]];function
-eW(c,a){var
+qe(a){var
+c=r(x0,a,[0,d,b]),e=r(x1,a,[0,d,b]);return[0,r(0,a,[0,d,b]),e,c]}function
+hW(a){var
+c=r(x2,a,[0,d,b]),e=r(x3,a,[0,d,b]);return[0,[0,r(0,a,[0,d,b]),e],c]}function
+kP(d,c,b,a){var
+e=b9(d,c,b,a);return v(b9(d,c,b,a),e)}var
+cY=c(2,c(2,c(2,c(2,c(2,q(c(2,b)))))));function
+ec(e){var
+a=aC(cY,e);if(a){var
+f=h(gN(c(2,b)),cY);return[0,a[1][2],f]}return[0,d,b]}var
+kQ=[0,[0,d,b],[0,d,b],[0,d,b]];function
+e5(c,a){var
 e=[0,d,b];return aq(function(b,a){return[2,h(c,b),a]},e,a)}function
-f0(b,a){return aq(function(c,a){var
-d=h(b,c);return M(function(b,a){return[2,b,a]},d,a)},kH,a)}function
-p3(c){var
+f8(b,a){return aq(function(c,a){var
+d=h(b,c);return M(function(b,a){return[2,b,a]},d,a)},kQ,a)}function
+qf(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return aE(a[1],dL);case
+1:return aF(a[1],dR);case
 6:var
 a=a[1];continue;default:var
-b=p3(a[1]);if(b){var
+b=qf(a[1]);if(b){var
 a=a[2];continue}return b}}function
-dq(a){return l(p3,a)}function
-kI(d,h,c,f){var
-a=eA(d,function(c,e,f){var
-a=aE(c,N(dL,h)),b=a?bn(e,f):a,g=b?[0,mP(d,c,e,f)]:b;return g},f);if(a){var
-b=a[1],e=aw(dL,b[3]),g=i2(hM(aw(c,e))),i=i2(hM(ao(c,e))),j=R(G(G(gT(ao(dL,b[3])),i),g));return K(b[1][2],j)}return a}function
-hQ(b,a,c){if(b)if(a)var
-f=a[1],g=hQ(b[2],a[2],c),h=K(b[1],d)?[3,f,c]:[2,f,c],e=[0,h,g];else
+dw(a){return l(qf,a)}function
+kR(d,h,c,f){var
+a=eI(d,function(c,e,f){var
+a=aF(c,N(dR,h)),b=a?bo(e,f):a,g=b?[0,mX(d,c,e,f)]:b;return g},f);if(a){var
+b=a[1],e=ay(dR,b[3]),g=i8(hT(ay(c,e))),i=i8(hT(ao(c,e))),j=R(G(G(g1(ao(dR,b[3])),i),g));return K(b[1][2],j)}return a}function
+hX(b,a,c){if(b)if(a)var
+f=a[1],g=hX(b[2],a[2],c),h=K(b[1],d)?[3,f,c]:[2,f,c],e=[0,h,g];else
 var
 e=a;else
 var
 e=b;return e}function
-hR(a){return z(function(a){var
-d=h(gF(c(2,b)),cU);return[0,a[2],d]},a)}function
-cu(b,a){var
-c=gO(a);return[1,N(dL,b),c,a]}function
-d8(a){if(cl(a[1],a[2]))return a[1];var
+hY(a){return x(function(a){var
+d=h(gN(c(2,b)),cY);return[0,a[2],d]},a)}function
+cy(b,a){var
+c=gW(a);return[1,N(dR,b),c,a]}function
+ed(a){if(co(a[1],a[2]))return a[1];var
 d=[0,c(2,b),b];return[5,[2,a[1],a[2]],d]}function
-bI(a){var
-b=d8(a[3]),c=d8(a[2]);return[0,d8(a[1]),c,b]}function
-p4(a){switch(a[0]){case
+bJ(a){var
+b=ed(a[3]),c=ed(a[2]);return[0,ed(a[1]),c,b]}function
+qg(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=d8(b[4]),e=bI(b[3]),f=bI(b[2]);return[0,bI(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=ed(b[4]),e=bJ(b[3]),f=bJ(b[2]);return[0,bJ(b[1]),f,e,d,c];case
 1:var
-g=z(bI,a[3]),h=bI(a[2]);return[1,bI(a[1]),h,g];default:return[2,bI(a[1])]}}function
-f1(h,g,p,a,Q,o){var
-x=fF(h,g,p,a),y=x?dq(a1(a)):x;if(y){var
+g=x(bJ,a[3]),h=bJ(a[2]);return[1,bJ(a[1]),h,g];default:return[2,bJ(a[1])]}}function
+f9(h,g,p,a,Q,o){var
+x=fN(h,g,p,a),y=x?dw(a2(a)):x;if(y){var
 q=E(g[3],Q);if(q){var
 j=q[1];if(typeof
 j!=="number"&&14===j[0]){var
-B=j[2],C=j[1],r=hR(aB(cU,B));if(r){var
-s=r[1],R=cu(xT,s),S=cu(xU,s),t=[0,cu(0,s),S,R],D=i(h,1,B),F=D?i(h,0,C):D;if(F)var
+B=j[2],C=j[1],r=hY(aC(cY,B));if(r){var
+s=r[1],R=cy(x_,s),S=cy(x$,s),t=[0,cy(0,s),S,R],D=i(h,1,B),F=D?i(h,0,C):D;if(F)var
 T=f(g[1]),u=n(f(o),T);else
 var
 u=F;var
-G=u?l(function(a){return dq(kF(a))},p):u;if(G){var
-U=g[1],H=hQ(o,e(function(b){return cS(p4(b),a)},U),C),I=dq(H);if(I){var
+G=u?l(function(a){return dw(kO(a))},p):u;if(G){var
+U=g[1],H=hX(o,e(function(b){return cW(qg(b),a)},U),C),I=dw(H);if(I){var
 w=V(V(p,H),o),k=function(k){var
 f=k[1][2],e=k[1][1];switch(e[0]){case
 0:var
-i=e[4],l=P(f,aC(e[1])),m=aP(e[2],e[3],a),g=M(function(b,a){return[3,b,a]},m,l),n=P([0,c(2,b),b],g);return[0,[3,v(g,g),[4,i,i]],n,[0,b,b]];case
+i=e[4],l=P(f,aD(e[1])),m=aQ(e[2],e[3],a),g=M(function(b,a){return[3,b,a]},m,l),n=P([0,c(2,b),b],g);return[0,[3,v(g,g),[4,i,i]],n,[0,b,b]];case
 1:var
-h=aP(e[1],e[2],a),o=P([0,c(2,b),b],h);return[0,[3,v(h,h),[4,f,f]],o,[0,b,b]];default:var
-j=e[1],p=aC(j);return[0,[3,v(aC(j),a),f],p,[0,d,b]]}},m=function(j){var
+h=aQ(e[1],e[2],a),o=P([0,c(2,b),b],h);return[0,[3,v(h,h),[4,f,f]],o,[0,b,b]];default:var
+j=e[1],p=aD(j);return[0,[3,v(aD(j),a),f],p,[0,d,b]]}},m=function(j){var
 e=j[1],f=e[2],c=e[1],d=j[2];switch(c[0]){case
 0:var
-g=c[3],h=c[2],i=c[1],k=aP(h,g,a),l=[3,v(aC(i),k),f],m=b3(i,h,g,c[4],a);return d7([5,[0,d,b],[2,cp(c[5],m),l]]);case
-1:return d7([5,[0,d,b],[2,f,cS(c,a)]]);default:return[0,d,b]}},L=v(t,t),N=[4,eW(function(a){var
-b=k(a)[3];return[4,m(a),b]},w),L],O=v(f0(function(a){var
-b=k(a)[2];return P(m(a),b)},w),t);return kI(h,xW,xV,[2,[2,eW(function(a){var
+g=c[3],h=c[2],i=c[1],k=aQ(h,g,a),l=[3,v(aD(i),k),f],m=b7(i,h,g,c[4],a);return ec([5,[0,d,b],[2,ct(c[5],m),l]]);case
+1:return ec([5,[0,d,b],[2,f,cW(c,a)]]);default:return[0,d,b]}},L=v(t,t),N=[4,e5(function(a){var
+b=k(a)[3];return[4,m(a),b]},w),L],O=v(f8(function(a){var
+b=k(a)[2];return P(m(a),b)},w),t);return kR(h,yb,ya,[2,[2,e5(function(a){var
 b=k(a)[1];return[4,m(a),b]},w),O],N])}var
 J=I}else
 var
@@ -6182,124 +6304,124 @@ z=q;var
 A=z}else
 var
 A=y;return A}function
-xX(a){var
-b=dq(a1(a[3])),c=b?dq(a1(a[4])):b;return c?dq([0,a[2],0]):c}function
-p5(a,d,c){var
-b=aI(0,bG(a));return e(function(b){var
-e=aE(b,bQ(a))?d:c;return cu(b,e)},b)}function
-p6(e,a,f){if(typeof
+yc(a){var
+b=dw(a2(a[3])),c=b?dw(a2(a[4])):b;return c?dw([0,a[2],0]):c}function
+qh(a,d,c){var
+b=aB(0,bH(a));return e(function(b){var
+e=aF(b,bS(a))?d:c;return cy(b,e)},b)}function
+qi(e,a,f){if(typeof
 e==="number"){if(e){var
-g=cu(xY,a);return[0,[0,cu(0,a),g,[0,d,b]],kH]}var
-h=cu(xZ,a),i=cu(x0,a);return[0,[0,cu(0,a),i,h],kH]}var
-c=e[1],j=kA(c,p5(c,a,f));return[0,kz(c,p5(c,a,f)),j]}function
-p7(g,e,u,o,a){var
-p=hR(aB(cU,u));if(p){var
+g=cy(yd,a);return[0,[0,cy(0,a),g,[0,d,b]],kQ]}var
+h=cy(ye,a),i=cy(yf,a);return[0,[0,cy(0,a),i,h],kQ]}var
+c=e[1],j=kJ(c,qh(c,a,f));return[0,kI(c,qh(c,a,f)),j]}function
+qj(g,e,u,o,a){var
+p=hY(aC(cY,u));if(p){var
 w=p[1],q=typeof
-e==="number"?[0,[0,b,b]]:hR(h(cr(cU),o));if(q){var
+e==="number"?[0,[0,b,b]]:hY(h(cv(cY),o));if(q){var
 r=q[1],x=i(g,1,u);if(x)if(typeof
 e==="number")var
 j=1;else
 var
-B=i(g,1,o),C=B?cs(g,o):B,j=C?I(bn(r,[0,d,b])):C;else
+B=i(g,1,o),C=B?cw(g,o):B,j=C?I(bo(r,[0,d,b])):C;else
 var
 j=x;var
-y=j?l(xX,a):j;if(y){var
-f=p6(e,w,r)[2],k=p6(e,w,r)[1],m=[0,c(2,b),b],n=function(b){return f0(function(a){var
-c=a[3],d=h(b,a[4]);return P([4,a[1],d],c)},a)},s=eW(function(a){var
-b=v(a[3],a[4]);return[4,a[1],b]},a),t=v(f,f),D=n(function(a){return a[3]}),E=P(f[3],D),F=n(function(a){return a[2]}),G=P(f[2],F),H=n(function(a){return a[1]}),J=P(f[1],H),K=M(function(b,a){return[2,b,a]},J,G),L=[4,t,s],N=v(f,M(function(b,a){return[2,b,a]},K,E)),O=[3,[2,v(f,f0(function(a){var
-b=cq(a[4],a[3]);return P(a[1],b)},a)),N],L],Q=[2,[4,m,s],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],t]],O]],R=[4,m,v(k,os(f,f0(function(a){return P(a[1],a[4])},a)))],S=v(k,k),T=[2,[4,eW(function(a){return a[1]},a),S],R],U=[4,m,v(f0(function(a){return P(a[1],a[3])},a),k)],V=[2,[2,[2,eW(function(a){var
+y=j?l(yc,a):j;if(y){var
+f=qi(e,w,r)[2],k=qi(e,w,r)[1],m=[0,c(2,b),b],n=function(b){return f8(function(a){var
+c=a[3],d=h(b,a[4]);return P([4,a[1],d],c)},a)},s=e5(function(a){var
+b=v(a[3],a[4]);return[4,a[1],b]},a),t=v(f,f),D=n(function(a){return a[3]}),E=P(f[3],D),F=n(function(a){return a[2]}),G=P(f[2],F),H=n(function(a){return a[1]}),J=P(f[1],H),K=M(function(b,a){return[2,b,a]},J,G),L=[4,t,s],N=v(f,M(function(b,a){return[2,b,a]},K,E)),O=[3,[2,v(f,f8(function(a){var
+b=cu(a[4],a[3]);return P(a[1],b)},a)),N],L],Q=[2,[4,m,s],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],t]],O]],R=[4,m,v(k,oG(f,f8(function(a){return P(a[1],a[4])},a)))],S=v(k,k),T=[2,[4,e5(function(a){return a[1]},a),S],R],U=[4,m,v(f8(function(a){return P(a[1],a[3])},a),k)],V=[2,[2,[2,e5(function(a){var
 b=[4,a[2],a[2]],c=v(a[4],a[4]),d=[3,[2,v(a[3],a[3]),c],b];return[4,a[1],d]},a),U],T],Q],W=typeof
-e==="number"?an(e):bQ(e[1]);return kI(g,an(e),W,V)}var
+e==="number"?an(e):bS(e[1]);return kR(g,an(e),W,V)}var
 z=y}else
 var
 z=q;var
 A=z}else
 var
 A=p;return A}function
-p8(a){return[6,v(a,a)]}function
-p9(b){if(0===b[0])return[0,p4(b[1])];var
-a=b[1],c=a[7],d=d8(a[6]),e=d8(a[5]),f=bI(a[4]),g=bI(a[3]),h=bI(a[2]);return[1,[0,bI(a[1]),h,g,f,e,d,c]]}function
-hS(f,e,c,a){if(typeof
+qk(a){return[6,v(a,a)]}function
+ql(b){if(0===b[0])return[0,qg(b[1])];var
+a=b[1],c=a[7],d=ed(a[6]),e=ed(a[5]),f=bJ(a[4]),g=bJ(a[3]),h=bJ(a[2]);return[1,[0,bJ(a[1]),h,g,f,e,d,c]]}function
+hZ(f,e,c,a){if(typeof
 a==="number")return 0;else{if(0===a[0]){var
 g=a[1],j=K(c,d)?[3,g,f]:[2,g,f];return[0,j]}var
-h=a[2],i=a[1],k=K(c,d)?gO(e):e,b=bb(k),l=[4,i,dX(b)],m=[2,[4,h,dW(b)],l],n=[4,h,dX(b)];return[1,[3,[4,i,dW(b)],n],m]}}function
-kJ(a,c){if(F(c,b))return a;var
-g=aY(c,aN(2)),h=g[1];if(L(g[2],d)){var
-e=kJ(a,h);return[4,e,e]}var
-f=kJ(a,h);return[4,[4,f,f],a]}function
-a2(c,a){switch(a[0]){case
+h=a[2],i=a[1],k=K(c,d)?gW(e):e,b=bb(k),l=[4,i,d4(b)],m=[2,[4,h,d3(b)],l],n=[4,h,d4(b)];return[1,[3,[4,i,d3(b)],n],m]}}function
+kS(a,c){if(F(c,b))return a;var
+g=aY(c,aO(2)),h=g[1];if(L(g[2],d)){var
+e=kS(a,h);return[4,e,e]}var
+f=kS(a,h);return[4,[4,f,f],a]}function
+a3(c,a){switch(a[0]){case
 0:return a[1];case
-1:return pJ([0,d,b],c,a[1]);case
-2:return[3,[0,d,b],a2(c,a[1])];case
+1:return pX([0,d,b],c,a[1]);case
+2:return[3,[0,d,b],a3(c,a[1])];case
 3:var
-e=a2(c,a[2]);return[2,a2(c,a[1]),e];case
+e=a3(c,a[2]);return[2,a3(c,a[1]),e];case
 4:var
-f=a2(c,a[2]);return[3,a2(c,a[1]),f];case
+f=a3(c,a[2]);return[3,a3(c,a[1]),f];case
 5:var
-g=a2(c,a[2]);return[4,a2(c,a[1]),g];case
+g=a3(c,a[2]);return[4,a3(c,a[1]),g];case
 6:var
-h=a2(c,a[2]);return[5,a2(c,a[1]),h];case
+h=a3(c,a[2]);return[5,a3(c,a[1]),h];case
 7:var
-i=a[2];return kJ(a2(c,a[1]),i);default:return[6,a2(c,a[1])]}}function
-f2(d,h,g){var
-i=d[3],b=kq(d,g,h),a=i;for(;;){if(a){var
-c=a[1],e=a[2],f=a2(b,c[2]),b=[0,[0,c[1],f],b],a=e;continue}return b}}function
-f3(c){var
+i=a[2];return kS(a3(c,a[1]),i);default:return[6,a3(c,a[1])]}}function
+f_(d,h,g){var
+i=d[3],b=kz(d,g,h),a=i;for(;;){if(a){var
+c=a[1],e=a[2],f=a3(b,c[2]),b=[0,[0,c[1],f],b],a=e;continue}return b}}function
+f$(c){var
 a=c;for(;;)switch(a[0]){case
-0:return I(dK(a[1]));case
+0:return I(dQ(a[1]));case
 1:return 1;case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-b=f3(a[1]);if(b){var
+b=f$(a[1]);if(b){var
 a=a[2];continue}return b}}function
-kK(a){if(a){var
+kT(a){if(a){var
 b=a[1];if(0===b[0])return 0;var
-c=b[1],d=kK(a[2]);return z(function(a){return[0,c,a]},d)}return x3}function
-eX(c,e,p){var
+c=b[1],d=kT(a[2]);return x(function(a){return[0,c,a]},d)}return yi}function
+e6(c,e,p){var
 a=p;for(;;)switch(a[0]){case
 6:var
-g=a[2],i=eX(c,e,a[1]),j=i?eX(c,e,g):i;if(j){var
-k=a2(e,g),l=h(c,k);if(!l)return h(c,[3,[0,d,b],k]);var
+g=a[2],i=e6(c,e,a[1]),j=i?e6(c,e,g):i;if(j){var
+k=a3(e,g),l=h(c,k);if(!l)return h(c,[3,[0,d,b],k]);var
 m=l}else
 var
 m=j;return m;case
 8:var
-n=a[1],o=eX(c,e,n);return o?h(c,a2(e,n)):o;case
+n=a[1],o=e6(c,e,n);return o?h(c,a3(e,n)):o;case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 1;default:var
-f=eX(c,e,a[1]);if(f){var
+f=e6(c,e,a[1]);if(f){var
 a=a[2];continue}return f}}function
-p_(j,c,i,h,n){var
-o=c[3],b=kq(c,h,i),a=o;for(;;){if(a){var
-e=a[1],f=e[2],g=eX(j,b,f);if(g){var
-k=a[2],m=a2(b,f),b=[0,[0,e[1],m],b],a=k;continue}var
+qm(j,c,i,h,n){var
+o=c[3],b=kz(c,h,i),a=o;for(;;){if(a){var
+e=a[1],f=e[2],g=e6(j,b,f);if(g){var
+k=a[2],m=a3(b,f),b=[0,[0,e[1],m],b],a=k;continue}var
 d=g}else
 var
 d=1;if(d){var
-p=f2(c,i,h);return l(function(a){return eX(j,p,a)},n)}return d}}var
-hU=x(m(b),hT);function
-p$(e){var
-a=W(hU);if(e)var
-f=r(m(c(2,b)),a),g=B(m(c(2,c(2,b))),f),h=r(m(c(2,b)),a),d=ai(B(m(b),h),g);else
+p=f_(c,i,h);return l(function(a){return e6(j,p,a)},n)}return d}}var
+h1=z(m(b),h0);function
+qn(e){var
+a=W(h1);if(e)var
+f=s(m(c(2,b)),a),g=B(m(c(2,c(2,b))),f),h=s(m(c(2,b)),a),d=ai(B(m(b),h),g);else
 var
-i=B(m(c(2,b)),a),j=W(hT),d=ai(B(r(m(c(2,b)),j),a),i);return aL(d)}function
-qa(d,c,a){if(d){var
-e=p$(c),f=B(m(b),e),g=r(x(m(b),a),f);return x(m(b),g)}var
-h=m(b),i=p$(c),j=ai(m(b),i);return x(r(a,B(m(b),j)),h)}function
-eY(f,e,d,a){var
-g=W(a),h=W(d),i=x(x(m(c(2,b)),h),g),j=f?e?hU:ai(hU,r(m(c(2,b)),hT)):ai(hU,m(c(2,b))),k=r(W(j),i);return aL(B(m(b),k))}function
-qb(a,d){var
-h=a?b:R(b),e=m(h),f=qa(a,d,x8),g=qa(a,d,x9),i=ai(f,eY(a,d,e,f)),j=[0,B(ai(g,eY(a,d,g,e)),i),0],k=ai(e,eY(a,d,e,f)),l=[0,B(ai(g,eY(a,d,f,g)),k),j],n=ai(e,eY(a,d,g,e)),o=[0,B(ai(f,eY(a,d,f,g)),n),l],p=a?d?m(c(2,b)):r(m(c(2,c(2,b))),hT):m(c(2,c(2,b)));return[0,p,o]}function
-qc(g,d){var
+i=B(m(c(2,b)),a),j=W(h0),d=ai(B(s(m(c(2,b)),j),a),i);return aM(d)}function
+qo(d,c,a){if(d){var
+e=qn(c),f=B(m(b),e),g=s(z(m(b),a),f);return z(m(b),g)}var
+h=m(b),i=qn(c),j=ai(m(b),i);return z(s(a,B(m(b),j)),h)}function
+e7(f,e,d,a){var
+g=W(a),h=W(d),i=z(z(m(c(2,b)),h),g),j=f?e?h1:ai(h1,s(m(c(2,b)),h0)):ai(h1,m(c(2,b))),k=s(W(j),i);return aM(B(m(b),k))}function
+qp(a,d){var
+h=a?b:R(b),e=m(h),f=qo(a,d,yn),g=qo(a,d,yo),i=ai(f,e7(a,d,e,f)),j=[0,B(ai(g,e7(a,d,g,e)),i),0],k=ai(e,e7(a,d,e,f)),l=[0,B(ai(g,e7(a,d,f,g)),k),j],n=ai(e,e7(a,d,g,e)),o=[0,B(ai(f,e7(a,d,f,g)),n),l],p=a?d?m(c(2,b)):s(m(c(2,c(2,b))),h0):m(c(2,c(2,b)));return[0,p,o]}function
+qq(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?A(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-kL(w,v,u,t){var
-a=e(function(a){return s(a,u,0)},v);if(a){var
+kU(w,v,u,t){var
+a=e(function(a){return r(a,u,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
 g=b[1];if(g){var
@@ -6308,7 +6430,7 @@ i=c[1];if(i){var
 d=c[2];if(d){var
 j=d[1];if(j){if(d[2])return 0;var
 x=j[1],y=i[1],z=g[1],A=f[1];return l(function(a){var
-c=h(a,x),d=h(a,y),e=h(a,z),b=h(a,A);return eB(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
+c=h(a,x),d=h(a,y),e=h(a,z),b=h(a,A);return eJ(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
 k=j}else
 var
 k=d;var
@@ -6327,15 +6449,15 @@ p=b;var
 q=p}else
 var
 q=f;var
-r=q}else
+s=q}else
 var
-r=a;return r}function
-qd(f,i,e,c,h){var
+s=a;return s}function
+qr(f,i,e,c,h){var
 j=f?b:d,a=J(i,j);function
 g(b){var
-c=f?ch(b):cJ(b);return C(c,a)}var
-k=[0,aa(h),0],l=[0,[0,a,c,[0,u,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-qe(r,b,q,p,g,o,n){if(o){var
+c=f?cl(b):cN(b);return C(c,a)}var
+k=[0,ad(h),0],l=[0,[0,a,c,[0,u,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+qs(r,b,q,p,g,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(g){var
 h=g[2],c=0;if(h){var
@@ -6344,16 +6466,16 @@ a=0;c=1;d=1}else{var
 t=i[1],k=h[1],l=g[1],f=0;if(typeof
 j==="number")switch(j){case
 0:var
-A=e(aF,ba(x_)),z=e(aa,0),a=kL(b,p,c5(0,bC(b,dO(0,g),z),q),A);c=1;d=1;f=1;break;case
+A=e(aH,ba(yp)),z=e(ad,0),a=kU(b,p,c_(0,b4(b,dU(0,g),z),q),A);c=1;d=1;f=1;break;case
 3:var
 a=F(k[2],l[1]);c=1;d=1;f=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-B=e(qc,x$),a=kL(b,p,c5(0,bC(b,qd(r,b,l,k,t),0),q),B);c=1;d=1;f=1}else{var
+B=e(qq,yq),a=kU(b,p,c_(0,b4(b,qr(r,b,l,k,t),0),q),B);c=1;d=1;f=1}else{var
 a=m;c=1;d=1;f=1}else
 if(m){var
 a=0;c=1;d=1;f=1}else{var
-C=e(qc,ya),a=kL(b,p,c5(0,bC(b,qd(r,b,l,k,t),0),q),C);c=1;d=1;f=1}}if(!f)var
+C=e(qq,yr),a=kU(b,p,c_(0,b4(b,qr(r,b,l,k,t),0),q),C);c=1;d=1;f=1}}if(!f)var
 u=0}else
 var
 u=i;if(!d)var
@@ -6363,29 +6485,29 @@ v=h;if(!c){var
 w=v;s=1}}else{var
 w=g;s=1}if(s)var
 a=w;var
-y=a?yb:a}else
+y=a?ys:a}else
 var
 y=n;return y}return[0,n]}function
-qf(f,e,d,c,p,o,n){var
+qt(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;)switch(a[0]){case
 0:var
-h=qe(f,e,d,c,b,a[1],g);return h?I(h[1]):h;case
+h=qs(f,e,d,c,b,a[1],g);return h?I(h[1]):h;case
 1:var
-i=qe(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=da(a[2],b),l=qf(f,e,d,c,k[1],j,a[3]);if(l){var
+i=qs(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=dg(a[2],b),l=qt(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m;default:return 0}}function
-kM(a){return cf(c(2,b),aQ(a,b))}function
-eZ(c,a,b,i,h){var
-f=c7(qb(a,b)),j=qb(a,b),k=e(cL(c6(f)),j),g=[0,d,cI(c)];return qf(a,c,f,k,[0,g,[0,g,[0,i,0]]],1,h)}function
-qg(a,g,b){if(K(g,kM(a))){if(b){var
+kV(a){return cj(c(2,b),aR(a,b))}function
+e8(c,a,b,i,h){var
+f=db(qp(a,b)),j=qp(a,b),k=e(cP(da(f)),j),g=[0,d,cM(c)];return qt(a,c,f,k,[0,g,[0,g,[0,i,0]]],1,h)}function
+qu(a,g,b){if(K(g,kV(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,kM(a)],v=cI(a),i=[0,kM(a),v],j=eZ(a,0,1,h,b[1]),k=j?eZ(a,0,0,i,c[1]):j;if(k){var
-l=eZ(a,1,1,h,d[1]);if(l)return eZ(a,1,0,i,e[1]);var
+h=[0,g,kV(a)],v=cM(a),i=[0,kV(a),v],j=e8(a,0,1,h,b[1]),k=j?e8(a,0,0,i,c[1]):j;if(k){var
+l=e8(a,1,1,h,d[1]);if(l)return e8(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -6402,301 +6524,301 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cI(a)],s=eZ(a,0,0,r,b[1]);if(s)return eZ(a,1,0,r,f[1]);var
+r=[0,g,cM(a)],s=e8(a,0,0,r,b[1]);if(s)return e8(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-kN(a){var
-b=[1,[2,d]];return bA(function(b,a){return[1,[3,b,a]]},a,b)}function
-hV(a){return kN(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-hW(a,c){return kN(e(function(a){var
-d=[0,a[2]],b=V(a[1],c);return[1,[7,[1,[8,kN(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-qh(e,d,c,b,a){if(0===a[0])return s(a[1],b,0);var
-f=a[1],g=ci(function(a){return qh(e,d,c,b,a)},f);return h(bC(e,d,c),g)}function
-qi(a){return a?K(d,a[1][2][1]):a}function
-yc(a){var
-b=n(f(a),yd);return b?al(function(a){return I(L(a,d))},a):b}function
-qj(c,f,b,a){if(b)if(a)var
-d=b[1],g=t(c,J(c,a[1]),f),h=qj(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
+kW(a){var
+b=[1,[2,d]];return bD(function(b,a){return[1,[3,b,a]]},a,b)}function
+h2(a){return kW(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+h3(a,c){return kW(e(function(a){var
+d=[0,a[2]],b=V(a[1],c);return[1,[7,[1,[8,kW(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+qv(e,d,c,b,a){if(0===a[0])return r(a[1],b,0);var
+f=a[1],g=b3(function(a){return qv(e,d,c,b,a)},f);return h(b4(e,d,c),g)}function
+qw(a){return a?K(d,a[1][2][1]):a}function
+yt(a){var
+b=n(f(a),yu);return b?aj(function(a){return I(L(a,d))},a):b}function
+qx(c,f,b,a){if(b)if(a)var
+d=b[1],g=t(c,J(c,a[1]),f),h=qx(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-qk(d,c){var
+qy(d,c){var
 a=E(c,d);if(a){var
-b=a[1],e=b[1];return I(L(cm(b),e))}return a}function
-hX(b,a){return eu(eu(b,0),a)}function
-kO(a){if(a){var
-b=a[2],c=a[1];if(b)return hX(c,[0,yf,kO(b)]);var
+b=a[1],e=b[1];return I(L(cp(b),e))}return a}function
+h4(b,a){return eB(eB(b,0),a)}function
+kX(a){if(a){var
+b=a[2],c=a[1];if(b)return h4(c,[0,yw,kX(b)]);var
 d=c}else
 var
 d=a;return d}function
-H(a){return[0,yh,hX(kO(a),yg)]}function
-aj(a){return[0,yj,hX(kO(a),yi)]}function
-at(a){return[0,yl,[0,a,yk]]}function
-o(b,a){return[0,bm(yn,bm(b,ym)),a]}function
-T(b,a){return aj([0,o(b,a),0])}function
-cV(d){var
-b=d,a=t0,e=0;for(;;){if(b){var
-c=md(a),b=b[1],a=c;continue}return[0,fo(gC(a)),e]}}function
-kP(a){return[0,fo(gL(a)),0]}function
-f4(a){var
-c=aX(a),f=0,b=0===c?t6:0<c?[0,gL(a)]:[1,gL(R(a))];if(0===b[0])var
-d=fo(b[1]);else
+H(a){return[0,yy,h4(kX(a),yx)]}function
+ak(a){return[0,yA,h4(kX(a),yz)]}function
+av(a){return[0,yC,[0,a,yB]]}function
+o(b,a){return[0,bn(yE,bn(b,yD)),a]}function
+T(b,a){return ak([0,o(b,a),0])}function
+cZ(d){var
+b=d,a=uc,e=0;for(;;){if(b){var
+c=mm(a),b=b[1],a=c;continue}return[0,fy(gK(a)),e]}}function
+kY(a){return[0,fy(gT(a)),0]}function
+ga(a){var
+c=aX(a),f=0,b=0===c?ui:0<c?[0,gT(a)]:[1,gT(R(a))];if(0===b[0])var
+d=fy(b[1]);else
 var
-e=fo(b[1]),d=bm(bX(1,45),e);return[0,d,f]}function
-e0(a){var
-b=0,c=0<aX(a)?gL(a):t4;return[0,fo(c),b]}function
-kQ(a){switch(a[0]){case
-2:return yp;case
-3:return 2<=a[1]?yq:yr;case
-4:return ys;default:return yo}}function
-f5(b,a){function
-c(c,a){return ae(c,kQ(a))?f5(b,a):[0,yy,g(f5(b,a),yx)]}switch(a[0]){case
+e=fy(b[1]),d=bn(bZ(1,45),e);return[0,d,f]}function
+e9(a){var
+b=0,c=0<aX(a)?gT(a):ug;return[0,fy(c),b]}function
+kZ(a){switch(a[0]){case
+2:return yG;case
+3:return 2<=a[1]?yH:yI;case
+4:return yJ;default:return yF}}function
+gb(b,a){function
+c(c,a){return ae(c,kZ(a))?gb(b,a):[0,yP,g(gb(b,a),yO)]}switch(a[0]){case
 0:var
 e=a[2],f=a[1];if(typeof
-e==="number")return[0,bt(f),0];var
-i=[0,yz,[0,bt(e),0]];return[0,bt(f),i];case
+e==="number")return[0,bw(f),0];var
+i=[0,yQ,[0,bw(e),0]];return[0,bw(f),i];case
 1:return[0,h(b,a[1]),0];case
-2:return[0,yB,c(yA,a[1])];case
+2:return[0,yS,c(yR,a[1])];case
 3:var
-j=a[3],k=c([0,kQ(a)],j);switch(a[1]){case
+j=a[3],k=c([0,kZ(a)],j);switch(a[1]){case
 0:var
-d=yt;break;case
+d=yK;break;case
 1:var
-d=yu;break;case
+d=yL;break;case
 2:var
-d=yv;break;default:var
-d=yw}var
-l=a[2];return g(c(kQ(a),l),[0,d,k]);case
+d=yM;break;default:var
+d=yN}var
+l=a[2];return g(c(kZ(a),l),[0,d,k]);case
 4:var
-m=[0,yC,kP(a[2])];return g(c(yD,a[1]),m);default:return[0,yF,g(f5(b,a[1]),yE)]}}function
-Q(a){return[0,yI,g(f5(function(a){return 0===a[0]?a[1]:yH},a),yG)]}function
-kR(a){return[0,yK,g(f5(function(a){return a},a),yJ)]}function
-cW(a){if(0===a[0])return Q(a[1]);var
-b=[0,o(yL,Q(a[2])),0];return aj([0,o(yM,Q(a[1])),b])}function
-hY(b,a){var
+m=[0,yT,kY(a[2])];return g(c(yU,a[1]),m);default:return[0,yW,g(gb(b,a[1]),yV)]}}function
+Q(a){return[0,yZ,g(gb(function(a){return 0===a[0]?a[1]:yY},a),yX)]}function
+k0(a){return[0,y1,g(gb(function(a){return a},a),y0)]}function
+c0(a){if(0===a[0])return Q(a[1]);var
+b=[0,o(y2,Q(a[2])),0];return ak([0,o(y3,Q(a[1])),b])}function
+h5(b,a){var
 c=[0,h(b,a[3]),0],d=[0,h(b,a[2]),c];return H([0,h(b,a[1]),d])}function
-yN(a){function
-b(a){return hY(cW,a)}switch(a[0]){case
+y4(a){function
+b(a){return h5(c0,a)}switch(a[0]){case
 0:var
-e=0,f=a[5]?yO:yW,h=[0,o(yP,at(f)),e],i=[0,o(yQ,cW(a[4])),h],j=[0,o(yR,b(a[3])),i],k=[0,o(yS,b(a[2])),j],l=[0,o(yT,b(a[1])),k],c=[0,o(yV,at(yU)),l];break;case
+e=0,f=a[5]?y5:zb,h=[0,o(y6,av(f)),e],i=[0,o(y7,c0(a[4])),h],j=[0,o(y8,b(a[3])),i],k=[0,o(y9,b(a[2])),j],l=[0,o(y_,b(a[1])),k],c=[0,o(za,av(y$)),l];break;case
 1:var
-d=a[3],m=d?[0,o(yX,b(d[1])),0]:d,n=[0,o(yY,b(a[2])),0],p=[0,o(yZ,b(a[1])),n],c=g([0,o(y1,at(y0)),p],m);break;default:var
-q=[0,o(y2,b(a[1])),0],c=[0,o(y4,at(y3)),q]}return aj(c)}function
-y5(a){function
-b(a){return H(e(cW,a))}function
+d=a[3],m=d?[0,o(zc,b(d[1])),0]:d,n=[0,o(zd,b(a[2])),0],p=[0,o(ze,b(a[1])),n],c=g([0,o(zg,av(zf)),p],m);break;default:var
+q=[0,o(zh,b(a[1])),0],c=[0,o(zj,av(zi)),q]}return ak(c)}function
+zk(a){function
+b(a){return H(e(c0,a))}function
 f(a){var
-b=a?y6:y8;return o(y7,at(b))}switch(a[0]){case
+b=a?zl:zn;return o(zm,av(b))}switch(a[0]){case
 0:var
-h=[0,f(a[5]),0],i=[0,o(y9,cW(a[4])),h],j=[0,o(y_,b(a[3])),i],k=[0,o(y$,b(a[2])),j],l=[0,o(za,b(a[1])),k],c=[0,o(zc,at(zb)),l];break;case
+h=[0,f(a[5]),0],i=[0,o(zo,c0(a[4])),h],j=[0,o(zp,b(a[3])),i],k=[0,o(zq,b(a[2])),j],l=[0,o(zr,b(a[1])),k],c=[0,o(zt,av(zs)),l];break;case
 1:var
-d=a[3],m=d?[0,o(zd,b(d[1])),0]:d,n=[0,o(ze,b(a[2])),0],p=[0,o(zf,b(a[1])),n],c=g([0,o(zh,at(zg)),p],m);break;case
+d=a[3],m=d?[0,o(zu,b(d[1])),0]:d,n=[0,o(zv,b(a[2])),0],p=[0,o(zw,b(a[1])),n],c=g([0,o(zy,av(zx)),p],m);break;case
 2:var
-q=[0,o(zi,b(a[1])),0],c=[0,o(zk,at(zj)),q];break;default:var
-r=[0,f(a[7]),0],s=[0,o(zl,cW(a[6])),r],t=[0,o(zm,cW(a[5])),s],u=[0,o(zn,b(a[4])),t],v=[0,o(zo,b(a[3])),u],w=[0,o(zp,b(a[2])),v],x=[0,o(zq,b(a[1])),w],c=[0,o(zs,at(zr)),x]}return aj(c)}function
-kS(a){switch(a){case
-0:return zt;case
-1:return zu;case
-2:return zv;case
-3:return zw;case
-4:return zx;case
-5:return zy;case
-6:return zz;case
-7:return zA;case
-8:return zB;case
-9:return zC;case
-10:return zD;case
-11:return zE;case
-12:return zF;case
-13:return zG;case
-14:return zH;case
-15:return zI;default:return zJ}}function
-kT(a){if(typeof
-a==="number")return zK;else
+q=[0,o(zz,b(a[1])),0],c=[0,o(zB,av(zA)),q];break;default:var
+r=[0,f(a[7]),0],s=[0,o(zC,c0(a[6])),r],t=[0,o(zD,c0(a[5])),s],u=[0,o(zE,b(a[4])),t],v=[0,o(zF,b(a[3])),u],w=[0,o(zG,b(a[2])),v],x=[0,o(zH,b(a[1])),w],c=[0,o(zJ,av(zI)),x]}return ak(c)}function
+k1(a){switch(a){case
+0:return zK;case
+1:return zL;case
+2:return zM;case
+3:return zN;case
+4:return zO;case
+5:return zP;case
+6:return zQ;case
+7:return zR;case
+8:return zS;case
+9:return zT;case
+10:return zU;case
+11:return zV;case
+12:return zW;case
+13:return zX;case
+14:return zY;case
+15:return zZ;default:return z0}}function
+k2(a){if(typeof
+a==="number")return z1;else
 switch(a[0]){case
-0:return zL;case
-1:return zM;default:return zN}}function
-f6(a){var
+0:return z2;case
+1:return z3;default:return z4}}function
+gc(a){var
 c=a[4];if(typeof
 c==="number")var
 d=0;else
 switch(c[0]){case
 0:var
-d=[0,o(zO,Q(c[1])),0];break;case
+d=[0,o(z5,Q(c[1])),0];break;case
 1:var
-d=[0,o(zP,Q(c[1])),0];break;default:var
-n=[0,Q(c[2]),0],d=[0,o(zQ,H([0,Q(c[1]),n])),0]}var
-p=[0,o(zR,at(kT(a[4]))),d],i=a[3];if(i){var
+d=[0,o(z6,Q(c[1])),0];break;default:var
+n=[0,Q(c[2]),0],d=[0,o(z7,H([0,Q(c[1]),n])),0]}var
+p=[0,o(z8,av(k2(a[4]))),d],i=a[3];if(i){var
 b=i[1];switch(b[0]){case
 0:var
-r=H([0,Q(b[1]),0]),k=a[1],q=0,s=6===k?zS:12===k?zW:zX,f=[0,o(zT,T(s,r)),q];break;case
+r=H([0,Q(b[1]),0]),k=a[1],q=0,s=6===k?z9:12===k?Ab:Ac,f=[0,o(z_,T(s,r)),q];break;case
 1:var
-x=H(e(Q,b[1])),m=a[1],w=0;if(14<=m)switch(m+sh|0){case
+x=H(e(Q,b[1])),m=a[1],w=0;if(14<=m)switch(m+sv|0){case
 0:var
-h=zY;break;case
+h=Ad;break;case
 1:var
-h=z0;break;default:var
-h=z1}else
+h=Af;break;default:var
+h=Ag}else
 var
-h=z2;var
-f=[0,o(zZ,T(h,x)),w];break;case
+h=Ah;var
+f=[0,o(Ae,T(h,x)),w];break;case
 2:var
-y=[0,o(z3,H([0,Q(b[2]),0])),0],f=[0,o(z5,aj([0,o(z4,H([0,Q(b[1]),0])),y])),0];break;default:var
-z=[0,o(z6,H([0,Q(b[2]),0])),0],f=[0,o(z8,aj([0,o(z7,H([0,Q(b[1]),0])),z])),0]}var
+y=[0,o(Ai,H([0,Q(b[2]),0])),0],f=[0,o(Ak,ak([0,o(Aj,H([0,Q(b[1]),0])),y])),0];break;default:var
+z=[0,o(Al,H([0,Q(b[2]),0])),0],f=[0,o(An,ak([0,o(Am,H([0,Q(b[1]),0])),z])),0]}var
 l=f}else
 var
 l=i;var
-t=g(l,p),j=a[2],u=j?[0,o(zU,cV(j[1])),0]:j,v=g(u,t);return aj([0,o(zV,at(kS(a[1]))),v])}function
-ql(a){if(0===a[0]){var
-b=[0,o(z9,hY(Q,a[2])),0];return T(z$,aj([0,o(z_,hY(Q,a[1])),b]))}var
-c=[0,Q(a[5]),0],d=[0,o(Aa,H([0,Q(a[4]),c])),0],e=[0,o(Ab,Q(a[3])),d],f=[0,Q(a[2]),0];return T(Ad,aj([0,o(Ac,H([0,Q(a[1]),f])),e]))}function
-qm(a){if(0===a[0]){var
-b=[0,o(Ae,H(e(Q,a[2]))),0];return T(Ag,aj([0,o(Af,H(e(Q,a[1]))),b]))}return ql([1,a[1],a[2],a[3],a[4],a[5]])}function
-qn(a){switch(a){case
-0:return Ah;case
-1:return Ai;default:return Aj}}function
-Ak(a){function
-b(a){return H(e(cW,a))}var
-c=[0,o(Al,b(a[2])),0],d=[0,o(Am,b(a[1])),c];return aj([0,o(Ao,at(An)),d])}function
-qo(a){function
+t=g(l,p),j=a[2],u=j?[0,o(z$,cZ(j[1])),0]:j,v=g(u,t);return ak([0,o(Aa,av(k1(a[1]))),v])}function
+qz(a){if(0===a[0]){var
+b=[0,o(Ao,h5(Q,a[2])),0];return T(Aq,ak([0,o(Ap,h5(Q,a[1])),b]))}var
+c=[0,Q(a[5]),0],d=[0,o(Ar,H([0,Q(a[4]),c])),0],e=[0,o(As,Q(a[3])),d],f=[0,Q(a[2]),0];return T(Au,ak([0,o(At,H([0,Q(a[1]),f])),e]))}function
+qA(a){if(0===a[0]){var
+b=[0,o(Av,H(e(Q,a[2]))),0];return T(Ax,ak([0,o(Aw,H(e(Q,a[1]))),b]))}return qz([1,a[1],a[2],a[3],a[4],a[5]])}function
+qB(a){switch(a){case
+0:return Ay;case
+1:return Az;default:return AA}}function
+AB(a){function
+b(a){return H(e(c0,a))}var
+c=[0,o(AC,b(a[2])),0],d=[0,o(AD,b(a[1])),c];return ak([0,o(AF,av(AE)),d])}function
+qC(a){function
 b(b,a){var
 c=[0,Q(a),0];return H([0,Q(b),c])}switch(a[0]){case
-0:return T(Ap,b(a[1],a[2]));case
+0:return T(AG,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,o(Aq,b(c[1],c[2])),0],g=[0,o(Ar,b(d[1],d[2])),f];return T(At,aj([0,o(As,b(e[1],e[2])),g]));case
-2:return T(Au,Q(a[1]));default:var
-h=[0,o(Av,Q(a[2])),0];return T(Ax,aj([0,o(Aw,Q(a[1])),h]))}}function
-Ay(a){function
-b(a){return hY(Q,a)}if(0===a[0])var
-c=a[5],e=c?[0,o(Az,b(c[1])),0]:c,f=[0,Q(a[4]),0],h=[0,o(AA,H([0,Q(a[3]),f])),0],i=[0,o(AB,Q(a[2])),h],j=[0,o(AC,cV(a[1])),i],d=g([0,o(AE,at(AD)),j],e);else
+c=a[3],d=a[2],e=a[1],f=[0,o(AH,b(c[1],c[2])),0],g=[0,o(AI,b(d[1],d[2])),f];return T(AK,ak([0,o(AJ,b(e[1],e[2])),g]));case
+2:return T(AL,Q(a[1]));default:var
+h=[0,o(AM,Q(a[2])),0];return T(AO,ak([0,o(AN,Q(a[1])),h]))}}function
+AP(a){function
+b(a){return h5(Q,a)}if(0===a[0])var
+c=a[5],e=c?[0,o(AQ,b(c[1])),0]:c,f=[0,Q(a[4]),0],h=[0,o(AR,H([0,Q(a[3]),f])),0],i=[0,o(AS,Q(a[2])),h],j=[0,o(AT,cZ(a[1])),i],d=g([0,o(AV,av(AU)),j],e);else
 var
-k=[0,o(AF,Q(a[4])),0],l=[0,o(AG,b(a[3])),k],m=[0,o(AH,b(a[2])),l],n=a[1]?AI:AK,d=[0,o(AJ,at(n)),m];return aj(d)}function
-qp(a){var
-b=a?[0,o(AL,H(e(Ay,a))),0]:a;return b}function
-kU(d,c,b,a){var
-f=[0,o(AM,H(e(f6,a))),0],h=g(qp(b),f),i=[0,o(AN,ql(c)),0];return aj(g([0,o(AP,T(AO,H(e(yN,d)))),i],h))}function
-AQ(a){switch(a[0]){case
-0:return T(AR,kU(a[1],a[2],a[3],a[4]));case
+k=[0,o(AW,Q(a[4])),0],l=[0,o(AX,b(a[3])),k],m=[0,o(AY,b(a[2])),l],n=a[1]?AZ:A1,d=[0,o(A0,av(n)),m];return ak(d)}function
+qD(a){var
+b=a?[0,o(A2,H(e(AP,a))),0]:a;return b}function
+k3(d,c,b,a){var
+f=[0,o(A3,H(e(gc,a))),0],h=g(qD(b),f),i=[0,o(A4,qz(c)),0];return ak(g([0,o(A6,T(A5,H(e(y4,d)))),i],h))}function
+A7(a){switch(a[0]){case
+0:return T(A8,k3(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],d=a[1],f=H(e(y5,a[2])),l=[0,o(AS,H(e(f6,a[6]))),0],m=b?[0,o(AT,qo(b[1])),0]:b,n=g(m,l),k=0,p=[0,o(AU,qm(a[4])),n];if(typeof
+b=a[5],c=a[3],d=a[1],f=H(e(zk,a[2])),l=[0,o(A9,H(e(gc,a[6]))),0],m=b?[0,o(A_,qC(b[1])),0]:b,n=g(m,l),k=0,p=[0,o(A$,qA(a[4])),n];if(typeof
 d==="number")if(d)var
-h=AV;else{var
-i=T(A0,f);k=1}else
+h=Ba;else{var
+i=T(Bf,f);k=1}else
 var
-h=qn(d[1]);if(!k)var
-q=c?[0,o(AW,Q(c[1])),0]:c,i=T(h,aj([0,o(AX,f),q]));return T(AZ,aj([0,o(AY,i),p]));case
+h=qB(d[1]);if(!k)var
+q=c?[0,o(Bb,Q(c[1])),0]:c,i=T(h,ak([0,o(Bc,f),q]));return T(Be,ak([0,o(Bd,i),p]));case
 2:var
-r=[0,o(A1,H(e(f6,a[7]))),0],s=g(qp(a[6]),r),t=[0,o(A2,qo(a[5])),0],u=[0,o(A3,qm(a[4])),t],v=[0,o(A4,Q(a[3])),0],w=aj([0,o(A5,H(e(Ak,a[2]))),v]);return T(A7,aj(g([0,o(A6,T(qn(a[1]),w)),u],s)));case
+r=[0,o(Bg,H(e(gc,a[7]))),0],s=g(qD(a[6]),r),t=[0,o(Bh,qC(a[5])),0],u=[0,o(Bi,qA(a[4])),t],v=[0,o(Bj,Q(a[3])),0],w=ak([0,o(Bk,H(e(AB,a[2]))),v]);return T(Bm,ak(g([0,o(Bl,T(qB(a[1]),w)),u],s)));case
 3:var
-x=[0,o(A8,H(e(f6,a[7]))),0],y=[0,o(A9,H(e(Q,a[6]))),0],z=[0,o(Ba,T(A$,aj([0,o(A_,H(e(Q,a[5]))),y]))),x],A=0,B=a[4],C=[0,o(Bd,H(e(function(a){return 0===a[0]?T(Bb,H(e(kR,a[1]))):T(Bc,kR(a[1]))},B))),A],D=a[3],E=[0,o(Be,H(e(function(a){var
-b=[0,kR(a[2]),0];return H([0,at(a[1]),b])},D))),C],F=a[2],G=[0,o(Bf,H(e(function(a){var
-b=[0,cW(a[2]),0];return H([0,at(a[1]),b])},F))),E];return T(Bj,aj([0,o(Bi,T(Bh,aj([0,o(Bg,H(e(at,a[1]))),G]))),z]));case
+x=[0,o(Bn,H(e(gc,a[7]))),0],y=[0,o(Bo,H(e(Q,a[6]))),0],z=[0,o(Br,T(Bq,ak([0,o(Bp,H(e(Q,a[5]))),y]))),x],A=0,B=a[4],C=[0,o(Bu,H(e(function(a){return 0===a[0]?T(Bs,H(e(k0,a[1]))):T(Bt,k0(a[1]))},B))),A],D=a[3],E=[0,o(Bv,H(e(function(a){var
+b=[0,k0(a[2]),0];return H([0,av(a[1]),b])},D))),C],F=a[2],G=[0,o(Bw,H(e(function(a){var
+b=[0,c0(a[2]),0];return H([0,av(a[1]),b])},F))),E];return T(BA,ak([0,o(Bz,T(By,ak([0,o(Bx,H(e(av,a[1]))),G]))),z]));case
 4:var
-I=[0,o(Bk,H(e(f6,a[3]))),0],J=[0,o(Bn,T(Bm,aj([0,o(Bl,Q(a[2])),0]))),I];return T(Br,aj([0,o(Bq,T(Bp,aj([0,o(Bo,Q(a[1])),0]))),J]));case
+I=[0,o(BB,H(e(gc,a[3]))),0],J=[0,o(BE,T(BD,ak([0,o(BC,Q(a[2])),0]))),I];return T(BI,ak([0,o(BH,T(BG,ak([0,o(BF,Q(a[1])),0]))),J]));case
 5:var
-K=[0,o(Bs,Q(a[5])),0];return T(Bu,aj([0,o(Bt,kU(a[1],[0,a[2],a[3]],0,a[4])),K]));case
+K=[0,o(BJ,Q(a[5])),0];return T(BL,ak([0,o(BK,k3(a[1],[0,a[2],a[3]],0,a[4])),K]));case
 6:var
-j=a[1],L=0,M=j?cW(j[1]):at(Bx);return T(Bw,aj([0,o(Bv,M),L]));default:var
-N=[0,o(By,Q(a[6])),0],O=[0,o(Bz,Q(a[5])),N],P=[0,o(BA,kU(a[2],a[3],0,a[4])),O],R=a[1];return T(BF,aj([0,o(BE,H(e(function(a){var
-b=[0,o(BB,Q(a[2][2])),0],c=[0,o(BC,Q(a[2][1])),b];return aj([0,o(BD,at(a[1])),c])},R))),P]))}}function
-d9(a){return H(e(f4,a))}function
-f7(b,a){var
-c=[0,o(BG,e0(a)),0];return aj([0,o(BH,H(e(d9,b))),c])}function
-dr(a){switch(a[0]){case
-0:return at(a[1]);case
+j=a[1],L=0,M=j?c0(j[1]):av(BO);return T(BN,ak([0,o(BM,M),L]));default:var
+N=[0,o(BP,Q(a[6])),0],O=[0,o(BQ,Q(a[5])),N],P=[0,o(BR,k3(a[2],a[3],0,a[4])),O],R=a[1];return T(BW,ak([0,o(BV,H(e(function(a){var
+b=[0,o(BS,Q(a[2][2])),0],c=[0,o(BT,Q(a[2][1])),b];return ak([0,o(BU,av(a[1])),c])},R))),P]))}}function
+ee(a){return H(e(ga,a))}function
+gd(b,a){var
+c=[0,o(BX,e9(a)),0];return ak([0,o(BY,H(e(ee,b))),c])}function
+dx(a){switch(a[0]){case
+0:return av(a[1]);case
 1:var
-b=f7(a[2],a[3]);return T(a[1],b);case
+b=gd(a[2],a[3]);return T(a[1],b);case
 2:var
-c=a[1]?BI:BK;return T(BJ,at(c));case
+c=a[1]?BZ:B1;return T(B0,av(c));case
 3:var
-d=[0,d9(a[3]),0];return T(BL,H([0,f7(a[1],a[2]),d]));case
+d=[0,ee(a[3]),0];return T(B2,H([0,gd(a[1],a[2]),d]));case
 4:var
-f=[0,e0(a[4]),0],g=[0,f4(a[3]),f];return T(BM,H([0,f7(a[1],a[2]),g]));case
+f=[0,e9(a[4]),0],g=[0,ga(a[3]),f];return T(B3,H([0,gd(a[1],a[2]),g]));case
 5:var
-h=[0,e0(a[3]),0],i=[0,f4(a[2]),h];return T(BN,H([0,dr(a[1]),i]));case
+h=[0,e9(a[3]),0],i=[0,ga(a[2]),h];return T(B4,H([0,dx(a[1]),i]));case
 6:var
-j=[0,e0(a[3]),0],k=[0,f4(a[2]),j];return T(BO,H([0,dr(a[1]),k]));case
-7:return T(BP,dr(a[1]));case
+j=[0,e9(a[3]),0],k=[0,ga(a[2]),j];return T(B5,H([0,dx(a[1]),k]));case
+7:return T(B6,dx(a[1]));case
 8:var
-l=[0,H(e(d9,a[3])),0],m=[0,at(a[2]),l];return T(BQ,H([0,dr(a[1]),m]));case
+l=[0,H(e(ee,a[3])),0],m=[0,av(a[2]),l];return T(B7,H([0,dx(a[1]),m]));case
 9:var
-n=a[1];return T(BR,H(e(function(a){var
-b=a[1],c=b[1],d=[0,dr(a[2]),0],e=[0,e0(b[2]),d],f=[0,f4(c[2]),e];return H([0,d9(c[1]),f])},n)));default:var
-o=[0,dr(a[4]),0],p=[0,dr(a[3]),o],q=[0,e0(a[2]),p];return T(BS,H([0,d9(a[1]),q]))}}function
-BT(a){var
-b=[0,dr(a[2]),0];return H([0,cV(a[1]),b])}function
-qq(a){if(typeof
-a==="number")return 0===a?at(BU):at(BV);else
+n=a[1];return T(B8,H(e(function(a){var
+b=a[1],c=b[1],d=[0,dx(a[2]),0],e=[0,e9(b[2]),d],f=[0,ga(c[2]),e];return H([0,ee(c[1]),f])},n)));default:var
+o=[0,dx(a[4]),0],p=[0,dx(a[3]),o],q=[0,e9(a[2]),p];return T(B9,H([0,ee(a[1]),q]))}}function
+B_(a){var
+b=[0,dx(a[2]),0];return H([0,cZ(a[1]),b])}function
+qE(a){if(typeof
+a==="number")return 0===a?av(B$):av(Ca);else
 switch(a[0]){case
 0:var
-b=[0,H(e(d9,a[2])),0];return T(BW,H([0,cV(a[1]),b]));case
+b=[0,H(e(ee,a[2])),0];return T(Cb,H([0,cZ(a[1]),b]));case
 1:var
-c=[0,cV(a[2]),0];return T(BX,H([0,cV(a[1]),c]));case
-2:return T(BY,H(e(Q,a[1])));default:var
-d=[0,o(BZ,f7(a[4],a[5])),0],f=[0,o(B0,H(e(Q,a[3]))),d],g=[0,o(B1,H(e(Q,a[2]))),f];return T(B3,aj([0,o(B2,cV(a[1])),g]))}}function
-B4(a){var
-b=a[4],h=b?[0,o(B5,d9([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,o(B6,qq(d[1])),0]:d,j=g(i,h),f=a[2],k=f?[0,o(B7,cV(f[1])),0]:f,l=g(k,j),c=a[1],m=c?[0,o(B8,H(e(BT,[0,c[1],c[2]]))),0]:c;return aj(g(m,l))}function
-qr(f,a,d){var
-h=[0,o(B9,H(e(B4,d))),0];if(a)var
-b=a[1],c=[0,o(B_,f7(b[1],b[2])),0];else
+c=[0,cZ(a[2]),0];return T(Cc,H([0,cZ(a[1]),c]));case
+2:return T(Cd,H(e(Q,a[1])));default:var
+d=[0,o(Ce,gd(a[4],a[5])),0],f=[0,o(Cf,H(e(Q,a[3]))),d],g=[0,o(Cg,H(e(Q,a[2]))),f];return T(Ci,ak([0,o(Ch,cZ(a[1])),g]))}}function
+Cj(a){var
+b=a[4],h=b?[0,o(Ck,ee([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,o(Cl,qE(d[1])),0]:d,j=g(i,h),f=a[2],k=f?[0,o(Cm,cZ(f[1])),0]:f,l=g(k,j),c=a[1],m=c?[0,o(Cn,H(e(B_,[0,c[1],c[2]]))),0]:c;return ak(g(m,l))}function
+qF(f,a,d){var
+h=[0,o(Co,H(e(Cj,d))),0];if(a)var
+b=a[1],c=[0,o(Cp,gd(b[1],b[2])),0];else
 var
 c=a;var
-i=g(c,h);return aj([0,o(B$,kP(f)),i])}function
-qs(d,c,a,b){var
-f=[0,o(Ca,qq(b)),0],h=a?[0,o(Cb,H(e(Q,a))),0]:a,i=g(h,f),j=[0,o(Cc,H(e(Q,c))),0];return aj(g([0,o(Cd,kP(d)),j],i))}function
-Ce(a){if(typeof
-a==="number")return at(Cf);else
+i=g(c,h);return ak([0,o(Cq,kY(f)),i])}function
+qG(d,c,a,b){var
+f=[0,o(Cr,qE(b)),0],h=a?[0,o(Cs,H(e(Q,a))),0]:a,i=g(h,f),j=[0,o(Ct,H(e(Q,c))),0];return ak(g([0,o(Cu,kY(d)),j],i))}function
+Cv(a){if(typeof
+a==="number")return av(Cw);else
 switch(a[0]){case
-0:return T(Cg,cV(a[1]));case
-1:return T(Ch,qr(a[1],a[2],a[3]));default:return T(Ci,qs(a[1],a[2],a[3],a[4]))}}function
-hZ(a){var
-b=iT(iS(aD(a),function(b){return bd(a,b)}));return l(function(a){var
-b=I(34===a?1:0),c=b?I(92===a?1:0):b,d=c?mw(32,a):c;return d?mw(a,126):d},b)}function
-kV(d){var
+0:return T(Cx,cZ(a[1]));case
+1:return T(Cy,qF(a[1],a[2],a[3]));default:return T(Cz,qG(a[1],a[2],a[3],a[4]))}}function
+h6(a){var
+b=iZ(iY(aE(a),function(b){return bd(a,b)}));return l(function(a){var
+b=I(34===a?1:0),c=b?I(92===a?1:0):b,d=c?mF(32,a):c;return d?mF(a,126):d},b)}function
+k4(d){var
 a=d;for(;;)switch(a[0]){case
 8:var
-b=hZ(a[2]);if(b){var
+b=h6(a[2]);if(b){var
 a=a[1];continue}return b;case
 9:var
-e=a[1];return l(function(a){return kV(a[2])},e);case
+e=a[1];return l(function(a){return k4(a[2])},e);case
 10:var
-c=kV(a[3]);if(c){var
+c=k4(a[3]);if(c){var
 a=a[4];continue}return c;case
 0:case
-1:return hZ(a[1]);case
-2:case
-3:case
-4:return 1;default:var
-a=a[1];continue}}function
-f8(b){function
+1:return h6(a[1]);case
+5:case
+6:case
+7:var
+a=a[1];continue;default:return 1}}function
+ge(b){function
 c(f){var
-a=mv(f),b=ae(Cx,a),c=b?ae(a,Cy):b;if(c)var
+a=mE(f),b=ae(CO,a),c=b?ae(a,CP):b;if(c)var
 d=c;else{var
-e=ae(Cz,a);if(e)return ae(a,CA);var
+e=ae(CQ,a);if(e)return ae(a,CR);var
 d=e}return d}var
-a=iT(iS(aD(b),function(a){return bd(b,a)}));if(a){var
+a=iZ(iY(aE(b),function(a){return bd(b,a)}));if(a){var
 d=a[2],e=c(a[1]),g=e?l(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=mv(a),f=ae(CB,e),h=f?ae(e,CC):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,h=g?ae(f(d),CD):g;if(h)return I(aG(b,CE));var
+e=mE(a),f=ae(CS,e),h=f?ae(e,CT):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,h=g?ae(f(d),CU):g;if(h)return I(aI(b,CV));var
 i=h}else
 var
 i=a;return i}function
-kW(c){var
+k5(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return f8(a[1]);case
+1:return ge(a[1]);case
 3:var
-b=kW(a[2]);if(b){var
+b=k5(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-f9(m){var
+gf(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -6707,42 +6829,42 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=gC(a[2]);if(typeof
+f=gK(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=f9(a[2]);if(i){var
+i=gf(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=f9(a[1]),l=k?gJ(c(2,b),j):k;return l?gJ(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
+j=a[2],k=gf(a[1]),l=k?gR(c(2,b),j):k;return l?gR(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
 a=a[1];continue}}function
-e1(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-b9(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-d_(a){return y(e1,b9(a))}function
-kX(a){switch(a[0]){case
+e_(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+cb(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+ef(a){return y(e_,cb(a))}function
+k6(a){switch(a[0]){case
 0:var
-c=e1(a[4]),d=g(d_(a[3]),c),e=g(d_(a[2]),d);return g(d_(a[1]),e);case
+c=e_(a[4]),d=g(ef(a[3]),c),e=g(ef(a[2]),d);return g(ef(a[1]),e);case
 1:var
-b=a[3],f=b?d_(b[1]):b,h=g(d_(a[2]),f);return g(d_(a[1]),h);default:return d_(a[1])}}function
-CF(a){switch(a[0]){case
+b=a[3],f=b?ef(b[1]):b,h=g(ef(a[2]),f);return g(ef(a[1]),h);default:return ef(a[1])}}function
+CW(a){switch(a[0]){case
 0:var
 d=g(a[3],[0,a[4],0]),e=g(a[2],d),b=g(a[1],e);break;case
 1:var
 c=a[3],f=c?c[1]:c,h=g(a[2],f),b=g(a[1],h);break;case
 2:var
 b=a[1];break;default:var
-i=g(a[4],[0,a[5],[0,a[6],0]]),j=g(a[3],i),k=g(a[2],j),b=g(a[1],k)}return y(e1,b)}function
-qt(a){return 0===a[0]?g(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-qu(a){if(0===a[0]){var
-b=b9(a[2]);return g(b9(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-qv(a){switch(a[0]){case
+i=g(a[4],[0,a[5],[0,a[6],0]]),j=g(a[3],i),k=g(a[2],j),b=g(a[1],k)}return y(e_,b)}function
+qH(a){return 0===a[0]?g(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+qI(a){if(0===a[0]){var
+b=cb(a[2]);return g(cb(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+qJ(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
-d$(e){var
+eg(e){var
 a=e[4],h=typeof
 a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=e[3];if(c){var
 b=c[1];switch(b[0]){case
@@ -6754,31 +6876,31 @@ d=[0,b[1],[0,b[2],0]]}var
 f=d}else
 var
 f=c;return g(f,h)}function
-qw(a){if(0===a[0]){var
-b=a[5],c=b?b9(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
-d=[0,a[4],0],e=g(b9(a[3]),d);return g(b9(a[2]),e)}function
-qx(b,e){var
+qK(a){if(0===a[0]){var
+b=a[5],c=b?cb(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
+d=[0,a[4],0],e=g(cb(a[3]),d);return g(cb(a[2]),e)}function
+qL(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
-f=c[1];return al(function(a){return aG(f,a)},b)}return 0;case
+f=c[1];return aj(function(a){return aI(f,a)},b)}return 0;case
 3:var
-d=qx(b,a[2]);if(d){var
+d=qL(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-f_(c,a){return l(function(a){var
-b=f9(a);return b?qx(c,a):b},a)}function
-qy(a){if(typeof
+gg(c,a){return l(function(a){var
+b=gf(a);return b?qL(c,a):b},a)}function
+qM(a){if(typeof
 a!=="number")switch(a[0]){case
 2:return a[1];case
 3:return g(a[2],a[3])}return 0}function
-qz(a){var
-d=gJ(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?gJ(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
-qA(a,b){return b?[4,qA(a,b[1]),a]:a}function
+qN(a){var
+d=gR(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?gR(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
+qO(a,b){return b?[4,qO(a,b[1]),a]:a}function
 k(a){switch(a[0]){case
 0:var
-i=a[2],j=c(2,q(c(2,c(2,b)))),l=function(a){return D(j,a)},m=gD(mb(i),l,b);return[0,mq(mc(gC(a[1]),i)),m];case
+i=a[2],j=c(2,q(c(2,c(2,b)))),l=function(a){return D(j,a)},m=gL(mk(i),l,b);return[0,mz(ml(gK(a[1]),i)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,b,b],[0,d,b]]:[1,e[1],e[2],e[3]];case
 2:var
@@ -6789,35 +6911,35 @@ g=k(a[2]),h=k(a[3]);switch(a[1]){case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=aS(fm(a[2]));return qA(k(a[1]),n);default:return[6,k(a[1])]}}function
-b_(a){if(0===a[0]){var
+n=aT(fw(a[2]));return qO(k(a[1]),n);default:return[6,k(a[1])]}}function
+cc(a){if(0===a[0]){var
 b=k(a[1]);return[0,b,b]}var
 c=k(a[2]);return[0,k(a[1]),c]}function
-ea(a){var
-b=b_(a[3]),c=b_(a[2]);return[0,b_(a[1]),c,b]}function
-CG(a){switch(a[0]){case
+eh(a){var
+b=cc(a[3]),c=cc(a[2]);return[0,cc(a[1]),c,b]}function
+CX(a){switch(a[0]){case
 0:var
-b=a[5],c=b_(a[4]),d=ea(a[3]),e=ea(a[2]);return[0,[0,ea(a[1]),e,d,c,b]];case
+b=a[5],c=cc(a[4]),d=eh(a[3]),e=eh(a[2]);return[0,[0,eh(a[1]),e,d,c,b]];case
 1:var
-f=z(ea,a[3]),g=ea(a[2]);return[1,ea(a[1]),g,f];default:return[2,ea(a[1])]}}function
-qB(a){if(0===a[0]){var
+f=x(eh,a[3]),g=eh(a[2]);return[1,eh(a[1]),g,f];default:return[2,eh(a[1])]}}function
+qP(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=k(h(a,c));return[0,k(h(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
 g=k(a[5]),i=[0,k(a[4]),g],j=k(a[3]),l=k(a[2]);return[1,k(a[1]),l,j,i]}function
-e2(a){var
+e$(a){var
 b=k(a[3]),c=k(a[2]);return[0,k(a[1]),c,b]}function
-ds(a){if(0===a[0]){var
-c=a[5],h=c?e2(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=k(a[4]),j=k(a[3]),l=k(a[2]);return[0,aS(a[1]),l,j,i,h]}var
+dy(a){if(0===a[0]){var
+c=a[5],h=c?e$(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=k(a[4]),j=k(a[3]),l=k(a[2]);return[0,aT(a[1]),l,j,i,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=e2(f),n=e2(g);return[2,k(e),n,m]}var
-o=e2(f),p=e2(g);return[1,k(e),p,o]}function
-h0(b,a){if(a){var
-c=a[1],d=a[2],f=h0(g(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return g(a6(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:n(b[1],a[1]):0:0===a[0]?0:cE(b[1],a[1]);return I(d)},h),f)}return a}function
-CH(b){if(b[1])return 0;var
+m=e$(f),n=e$(g);return[2,k(e),n,m]}var
+o=e$(f),p=e$(g);return[1,k(e),p,o]}function
+h7(b,a){if(a){var
+c=a[1],d=a[2],f=h7(g(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return g(aZ(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:n(b[1],a[1]):0:0===a[0]?0:cI(b[1],a[1]);return I(d)},h),f)}return a}function
+CY(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,k(a[1])],0];return 0}function
-qC(N,M,a){switch(a[1]){case
+qQ(N,M,a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
 g!=="number"&&0===g[0])return[0,[1,k(g[1])],0];return 0;case
@@ -6872,14 +6994,14 @@ b=k(W);return[13,a,k(X),b]}}if(K)return 0;break;case
 9:var
 u=a[4];if(typeof
 u!=="number"&&0===u[0]){var
-Y=u[1],Z=h0(0,M);return e(function(h){var
+Y=u[1],Z=h7(0,M);return e(function(h){var
 e=k(Y),a=h[2],c=h[1];if(0===c[0]){var
 f=c[1];if(0===a[0]){var
-g=function(a){return a?e2(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(n(f,a[1])){var
-i=k(a[2]),j=[2,[2,k(c[2]),i],e],l=g(a[5]),m=g(c[5]);return[11,aS(f),m,l,j]}var
-o=ds(a);return[10,ds(c),o,e]}var
-p=ds(a);return[10,ds(c),p,e]}var
-q=ds(a);return[10,ds(c),q,e]},Z)}return 0;case
+g=function(a){return a?e$(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(n(f,a[1])){var
+i=k(a[2]),j=[2,[2,k(c[2]),i],e],l=g(a[5]),m=g(c[5]);return[11,aT(f),m,l,j]}var
+o=dy(a);return[10,dy(c),o,e]}var
+p=dy(a);return[10,dy(c),p,e]}var
+q=dy(a);return[10,dy(c),q,e]},Z)}return 0;case
 10:var
 v=a[4],L=0;if(typeof
 v==="number"||!(1===v[0]))L=1;else{var
@@ -6889,15 +7011,15 @@ $=x[2],aa=x[1],c=function(a){var
 b=k(_),c=k($);return[12,a,k(aa),c,b]}}if(L)return 0;break;case
 11:var
 G=typeof
-a[4]==="number"?1:0,ab=G?CI:G;return ab;case
+a[4]==="number"?1:0,ab=G?CZ:G;return ab;case
 12:var
 y=a[4];if(typeof
 y!=="number"&&1===y[0]){var
 z=a[3];if(z){var
 H=z[1];if(0===H[0]){var
 ac=k(y[1]);return[0,[14,k(H[1]),ac],0]}return 0}return z}return 0;default:return 0}var
-B=a[2],P=B?[0,aS(B[1]),0]:aI(0,N);return e(c,P)}function
-CJ(c,a){switch(a[1]){case
+B=a[2],P=B?[0,aT(B[1]),0]:aB(0,N);return e(c,P)}function
+C0(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
 l!=="number"&&2!==l[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -6941,7 +7063,7 @@ z!=="number"&&0===z[0])return a[2]?0:a[3]?0:1;return 0;case
 N=0,A=a[4];if(typeof
 A==="number"||!(1===A[0]))N=1;else{var
 h=a[3];if(!h)return h;if(0!==h[1][0])return 0;var
-B=n(c,CL),O=0;if(B){var
+B=n(c,C2),O=0;if(B){var
 C=a[2];if(C){var
 b=C[1];O=1}else
 var
@@ -6967,17 +7089,17 @@ I=H;return I;case
 12:var
 J=a[4];if(typeof
 J!=="number"&&1===J[0]){if(a[2])return 0;var
-k=a[3];return k?0===k[1][0]?n(c,CM):0:k}return 0;default:return 0}var
-p=ae(CK,b);return p?ae(b,c):p}function
-h1(c,k,j,b){var
-l=f(c),d=y(function(a){return qC(l,j,a)},b),a=y(CH,b),h=a?[0,a[1],a[2]]:CN,i=g(h,d),m=qB(k);return[0,e(CG,c),m,i]}function
-qD(b){if(b[1])return 0;var
+k=a[3];return k?0===k[1][0]?n(c,C3):0:k}return 0;default:return 0}var
+p=ae(C1,b);return p?ae(b,c):p}function
+h8(c,k,j,b){var
+l=f(c),d=y(function(a){return qQ(l,j,a)},b),a=y(CY,b),h=a?[0,a[1],a[2]]:C4,i=g(h,d),m=qP(k);return[0,e(CX,c),m,i]}function
+qR(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,k(a[1])],0];return 0}function
-qE(c){function
-a(a){return s(a,e(k,c),[0,d,b])}var
-f=a(CO),g=a(CP);return[0,a(0),g,f]}function
-h2(_,G,Z,a){switch(a[1]){case
+qS(c){function
+a(a){return r(a,e(k,c),[0,d,b])}var
+f=a(C5),g=a(C6);return[0,a(0),g,f]}function
+h9(_,G,Z,a){switch(a[1]){case
 0:var
 h=a[4];if(typeof
 h!=="number"&&0===h[0])return[0,[1,k(h[1])],0];return 0;case
@@ -6988,7 +7110,7 @@ switch(f[0]){case
 0:var
 $=f[1],c=function(a){return[2,a,k($)]};break;case
 1:var
-ab=f[1],c=function(a){return[3,a,k(ab)]};break;default:var
+ac=f[1],c=function(a){return[3,a,k(ac)]};break;default:var
 ad=f[2],ae=f[1],c=function(a){var
 b=k(ad);return[4,a,k(ae),b]}}break;case
 2:var
@@ -7015,7 +7137,7 @@ o!=="number"&&0===o[0]){var
 J=o[1],p=a[3];if(p){var
 q=p[1];switch(q[0]){case
 0:var
-ai=k(J);return[0,[8,ac(k(q[1]),G),ai],0];case
+ai=k(J);return[0,[8,ab(k(q[1]),G),ai],0];case
 1:var
 aj=k(J);return[0,[8,e(k,q[1]),aj],0];default:var
 K=0}}else
@@ -7031,8 +7153,8 @@ b=k(ak);return[7,a,k(al),b]}}if(T)return 0;break;case
 9:var
 t=a[4];if(typeof
 t!=="number"&&0===t[0]){var
-am=t[1],an=h0(0,Z);return e(function(a){var
-b=k(am),c=ds(a[2]);return[14,ds(a[1]),c,b]},an)}return 0;case
+am=t[1],an=h7(0,Z);return e(function(a){var
+b=k(am),c=dy(a[2]);return[14,dy(a[1]),c,b]},an)}return 0;case
 10:var
 u=a[4],U=0;if(typeof
 u==="number"||!(1===u[0]))U=1;else{var
@@ -7063,14 +7185,14 @@ A==="number"||!(1===A[0]))W=1;else{var
 B=a[3],av=A[1];if(!B)return B;var
 O=B[1];if(1!==O[0])return 0;var
 aw=O[1],c=function(a){var
-b=k(av);return[13,a,0,qE(aw),b]}}if(W)return 0;break;case
+b=k(av);return[13,a,0,qS(aw),b]}}if(W)return 0;break;case
 15:var
 C=a[4],X=0;if(typeof
 C==="number"||!(1===C[0]))X=1;else{var
 D=a[3],ax=C[1];if(!D)return D;var
 P=D[1];if(1!==P[0])return 0;var
 ay=P[1],c=function(a){var
-b=k(ax);return[13,a,1,qE(ay),b]}}if(X)return 0;break;case
+b=k(ax);return[13,a,1,qS(ay),b]}}if(X)return 0;break;case
 16:var
 E=a[4],Y=0;if(typeof
 E==="number"||!(1===E[0]))Y=1;else{var
@@ -7078,11 +7200,11 @@ F=a[3],az=E[1];if(!F)return F;var
 Q=F[1];if(1!==Q[0])return 0;var
 aA=Q[1],c=function(a){var
 b=k(az);return[17,a,e(k,aA),b]}}if(Y)return 0;break;default:return 0}var
-H=a[2],aa=H?[0,aS(H[1]),0]:aI(0,G);return e(c,aa)}function
-e3(e,d,c,b){var
-f=y(function(a){return h2(e,d,c,a)},b),a=y(qD,b),h=a?[0,a[1],a[2]]:CQ;return g(h,f)}function
-cX(a){return 11===a[1]?1:0}function
-cv(n,m,a){var
+H=a[2],aa=H?[0,aT(H[1]),0]:aB(0,G);return e(c,aa)}function
+fa(e,d,c,b){var
+f=y(function(a){return h9(e,d,c,a)},b),a=y(qR,b),h=a?[0,a[1],a[2]]:C7;return g(h,f)}function
+c1(a){return 11===a[1]?1:0}function
+cz(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
 c=a[4];if(typeof
@@ -7092,9 +7214,9 @@ l=0,d=a[4];if(typeof
 d!=="number"&&2===d[0]){var
 e=1;l=1}if(!l)var
 e=0;var
-f=cE(n,e);if(f){var
+f=cI(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=ae(CR,h);return i?ae(h,m):i}var
+h=g[1],i=ae(C8,h);return i?ae(h,m):i}var
 j=1}else
 var
 j=f;return j;case
@@ -7103,14 +7225,14 @@ k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
 aV(s,b,a){var
 d=a[2];if(d)var
-e=d[1],g=ae(CS,e),t=g?ae(e,b):g,c=t;else
+e=d[1],g=ae(C9,e),t=g?ae(e,b):g,c=t;else
 var
 c=1;var
 h=a[1];if(!(9<=h))switch(h){case
 2:var
 i=a[4];if(typeof
 i!=="number"&&1===i[0]){var
-j=a[3];return j?0===j[1][0]?c:cv(0,b,a):cv(0,b,a)}return cv(0,b,a);case
+j=a[3];return j?0===j[1][0]?c:cz(0,b,a):cz(0,b,a)}return cz(0,b,a);case
 6:var
 k=a[4];if(typeof
 k!=="number"&&0===k[0]){var
@@ -7121,23 +7243,23 @@ m=l[1];switch(m[0]){case
 o=n(f(m[1]),b);if(o){if(a[2])return 0;var
 p=1}else
 var
-p=o;return p;default:return cv(0,b,a)}}return cv(0,b,a)}return cv(0,b,a);case
+p=o;return p;default:return cz(0,b,a)}}return cz(0,b,a)}return cz(0,b,a);case
 8:var
 q=a[4];if(typeof
 q!=="number"&&1===q[0]){var
-r=a[3];return r?0===r[1][0]?c?n(b,s):c:cv(0,b,a):cv(0,b,a)}return cv(0,b,a)}return cv(0,b,a)}function
-aJ(c,b,a){return 11===a[1]?typeof
+r=a[3];return r?0===r[1][0]?c?n(b,s):c:cz(0,b,a):cz(0,b,a)}return cz(0,b,a)}return cz(0,b,a)}function
+aK(c,b,a){return 11===a[1]?typeof
 a[4]==="number"?a[2]?aV(c,b,a):a[3]?aV(c,b,a):1:aV(c,b,a):aV(c,b,a)}function
-qF(g,b,c,a){var
+qT(g,b,c,a){var
 h=a[2];if(h)var
-i=h[1],j=ae(CU,i),G=j?ae(i,c):j,d=G;else
+i=h[1],j=ae(C$,i),G=j?ae(i,c):j,d=G;else
 var
 d=1;switch(a[1]){case
 1:if(a[3])return aV(an(b),c,a);if(d){var
 F=0,k=a[4];if(typeof
 k!=="number"&&2===k[0]){var
 l=1;F=1}if(!F)var
-l=0;return cE(g,l)}return d;case
+l=0;return cI(g,l)}return d;case
 4:var
 m=a[4];if(typeof
 m!=="number"&&0===m[0])return a[3]?aV(an(b),c,a):d;return aV(an(b),c,a);case
@@ -7175,27 +7297,27 @@ D=typeof
 b==="number"?1:0,E=D?1:D;else
 var
 E=C;return E}return aV(an(b),c,a)}return aV(an(b),c,a)}return aV(an(b),c,a);default:return aV(an(b),c,a)}}function
-dt(a){switch(a[0]){case
+dz(a){switch(a[0]){case
 0:return[0,k([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,dt(a[1])];case
+2:return[2,dz(a[1])];case
 3:var
-b=dt(a[2]),c=dt(a[3]);switch(a[1]){case
+b=dz(a[2]),c=dz(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,dt(a[1]),d];default:return[8,dt(a[1])]}}function
-kY(i,h,g,b,d,c,a){var
-j=al(cX,a),l=e3(0,f(b),0,a),m=V(d,c),n=e(function(a){var
-b=k(a[2]);return[0,k(a[1]),b]},m),o=e(function(a){return 0===a[0]?[0,e(dt,a[1])]:[1,dt(a[1])]},b),p=e(function(a){var
-b=dt(a[2]);return[0,a[1],b]},g);return[0,[0,i,e(function(a){var
-b=b_(a[2]);return[0,a[1],b]},h),p,o],n,l,j]}function
-kZ(c){function
+d=a[2];return[7,dz(a[1]),d];default:return[8,dz(a[1])]}}function
+k7(i,h,g,b,d,c,a){var
+j=aj(c1,a),l=fa(0,f(b),0,a),m=V(d,c),n=e(function(a){var
+b=k(a[2]);return[0,k(a[1]),b]},m),o=e(function(a){return 0===a[0]?[0,e(dz,a[1])]:[1,dz(a[1])]},b),p=e(function(a){var
+b=dz(a[2]);return[0,a[1],b]},g);return[0,[0,i,e(function(a){var
+b=cc(a[2]);return[0,a[1],b]},h),p,o],n,l,j]}function
+k8(c){function
 a(e){var
-a=[0,d,b];return s(e,c,[0,a,a])}var
-e=a(CV),f=a(CW);return[0,a(0),f,e]}function
-eb(a){function
+a=[0,d,b];return r(e,c,[0,a,a])}var
+e=a(Da),f=a(Db);return[0,a(0),f,e]}function
+ei(a){function
 b(a){var
 b=k(a[2]);return[0,k(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
@@ -7203,41 +7325,41 @@ b=k(a[2]);return[0,k(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,k(a[1])];default:var
 e=k(a[2]);return[3,k(a[1]),e]}}function
-qG(a){if(0===a[0]){var
-b=V(a[1],a[2]);return[0,kZ(e(function(a){var
-b=k(a[2]);return[0,k(a[1]),b]},b))]}return qB([1,a[1],a[2],a[3],a[4],a[5]])}function
-qH(j,b,i,h,g,d,a){function
-c(a){return kZ(e(b_,a))}var
-l=al(cX,a),m=e3(0,f(b),d,a),n=eb(g),o=qG(h),p=k(i);return[0,j,e(function(a){var
+qU(a){if(0===a[0]){var
+b=V(a[1],a[2]);return[0,k8(e(function(a){var
+b=k(a[2]);return[0,k(a[1]),b]},b))]}return qP([1,a[1],a[2],a[3],a[4],a[5]])}function
+qV(j,b,i,h,g,d,a){function
+c(a){return k8(e(cc,a))}var
+l=aj(c1,a),m=fa(0,f(b),d,a),n=ei(g),o=qU(h),p=k(i);return[0,j,e(function(a){var
 b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,l]}function
-ec(a){return al(function(a){return 3===a[0]?1:0},a)}function
-k0(j,a,g,i,h,c){var
-l=al(cX,c),m=f(a),n=e3(ec(a),m,0,c),o=z(eb,h),p=qG(i),q=g?k(g[1]):[0,b,b];return[0,j,e(function(a){function
-c(a){return kZ(e(b_,a))}switch(a[0]){case
+ej(a){return aj(function(a){return 3===a[0]?1:0},a)}function
+k9(j,a,g,i,h,c){var
+l=aj(c1,c),m=f(a),n=fa(ej(a),m,0,c),o=x(ei,h),p=qU(i),q=g?k(g[1]):[0,b,b];return[0,j,e(function(a){function
+c(a){return k8(e(cc,a))}switch(a[0]){case
 0:var
-k=a[5],l=b_(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
+k=a[5],l=cc(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
 1:var
-o=z(c,a[3]),p=c(a[2]);return[0,[1,c(a[1]),p,o]];case
+o=x(c,a[3]),p=c(a[2]);return[0,[1,c(a[1]),p,o]];case
 2:return[0,[2,c(a[1])]];default:var
 f=a[1];if(f)var
 g=c(f);else
 var
 h=[0,b,b],i=[0,d,b],j=[0,d,b],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
-q=a[7],r=b_(a[6]),s=b_(a[5]),t=c(a[4]),u=c(a[3]);return[1,[0,g,c(a[2]),u,t,s,r,q]]}},a),q,p,o,n,l]}function
-b$(c){var
+q=a[7],r=cc(a[6]),s=cc(a[5]),t=c(a[4]),u=c(a[3]);return[1,[0,g,c(a[2]),u,t,s,r,q]]}},a),q,p,o,n,l]}function
+cd(c){var
 a=c[1];if(13!==a){var
 b=16<=a?1:0;if(!b)return b}return 1}function
-k1(a){function
+k_(a){function
 b(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}switch(a[0]){case
 0:var
 c=a[5],d=a[4],e=b(a[3]),f=b(a[2]);return[0,b(a[1]),f,e,d,c];case
 1:var
-g=z(b,a[3]),h=b(a[2]);return[1,b(a[1]),h,g];default:return[2,b(a[1])]}}function
-k2(a){if(0===a[0]){var
+g=x(b,a[3]),h=b(a[2]);return[1,b(a[1]),h,g];default:return[2,b(a[1])]}}function
+k$(a){if(0===a[0]){var
 b=a[2],c=a[1];return[0,[0,c[1],[0,c[2],[0,c[3],0]]],[0,b[1],[0,b[2],[0,b[3],0]]]]}return[1,a[1],a[2],a[3],a[4],a[5]]}function
-qI(a){return a[1]?0:1}function
-qJ(l){var
-b=a6(qI,l);if(b){var
+qW(a){return a[1]?0:1}function
+qX(l){var
+b=aZ(qW,l);if(b){var
 d=b[1];if(d[2])return 0;if(d[3])return 0;var
 c=d[4],a=b[2];if(typeof
 c!=="number")switch(c[0]){case
@@ -7258,69 +7380,69 @@ k=a;return k}var
 i=0}else
 var
 i=b;return i}function
-qK(a){var
-c=qI(a);if(c)return c;if(1===a[1]){var
+qY(a){var
+c=qW(a);if(c)return c;if(1===a[1]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return 1;return 0}return 0}function
-h3(i,h,b){function
+h_(i,h,b){function
 c(b,a){return[3,1,b,a]}function
 a(b,a){return[3,3,b,a]}function
 d(b,a){return[3,2,b,a]}function
 e(b,a){return[3,0,b,a]}var
-f=c(h4,a(h4,b)),j=a(f,k3),k=i?f:a(c(b,h4),k3);function
-g(b){return a(b,[5,e(h4,d(k3,d(b,b)))])}var
+f=c(h$,a(h$,b)),j=a(f,la),k=i?f:a(c(b,h$),la);function
+g(b){return a(b,[5,e(h$,d(la,d(b,b)))])}var
 l=g(k);return a(h,e(g(j),l))}function
-h5(f,e,d){function
+ia(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,k4,a(k4,d)],qL),g=a(c,[5,[3,0,k4,b(qL,b(c,c))]]);return[2,b(h3(f,e,d),g)]}function
-k5(e,g,a){function
+c=a([3,1,lb,a(lb,d)],qZ),g=a(c,[5,[3,0,lb,b(qZ,b(c,c))]]);return[2,b(h_(f,e,d),g)]}function
+lc(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
-h=f(h6,b(h6,a)),d=e?h:b(f(a,h6),qM),i=b(d,[5,[3,0,h6,c(qM,c(d,d))]]);return c(h3(e,g,a),i)}function
-qN(c,g,b,a){function
+h=f(ib,b(ib,a)),d=e?h:b(f(a,ib),q0),i=b(d,[5,[3,0,ib,c(q0,c(d,d))]]);return c(h_(e,g,a),i)}function
+q1(c,g,b,a){function
 d(b,a){return e(function(c){var
-d=n(b,c)?a:CX;return[0,d]},CZ)}return e(function(e){var
-j=[0,h3(c,b,a)],i=1,k=d(e,[2,g]);function
+d=n(b,c)?a:Dc;return[0,d]},De)}return e(function(e){var
+j=[0,h_(c,b,a)],i=1,k=d(e,[2,g]);function
 f(b,a){return[3,1,b,a]}var
-h=h3(c,b,a),l=d(e,f(f(h5(c,b,a),g),h));return[0,d(e,CY),l,k,j,i]},C0)}function
-qO(c,b,a){var
-d=[0,k5(c,b,a),0],e=[0,k5(c,b,a),d],f=[0,k5(c,b,a),e],g=[0,h5(c,b,a),0],h=[0,h5(c,b,a),g];return[0,[0,h5(c,b,a),h],f]}function
-qP(o,e,a){if(e)if(a){var
-g=e[1],h=a[1],j=cO(k(g[2][1]));if(j){var
-l=j[1],m=cO(k(g[2][2]));if(m)var
+h=h_(c,b,a),l=d(e,f(f(ia(c,b,a),g),h));return[0,d(e,Dd),l,k,j,i]},Df)}function
+q2(c,b,a){var
+d=[0,lc(c,b,a),0],e=[0,lc(c,b,a),d],f=[0,lc(c,b,a),e],g=[0,ia(c,b,a),0],h=[0,ia(c,b,a),g];return[0,[0,ia(c,b,a),h],f]}function
+q3(o,e,a){if(e)if(a){var
+g=e[1],h=a[1],j=cR(k(g[2][1]));if(j){var
+l=j[1],m=cR(k(g[2][2]));if(m)var
 p=m[1],n=function(a){function
 d(a){return c(2,a)}var
-e=[0,a,gD(h[2],d,b)];return dG(l,a_(dH(p,l),e))},q=n(G(h[1],b)),f=[0,n(h[1]),q];else
+e=[0,a,gL(h[2],d,b)];return dL(l,a_(dM(p,l),e))},q=n(G(h[1],b)),f=[0,n(h[1]),q];else
 var
 f=[0,[0,d,b],[0,d,b]]}else
 var
 f=[0,[0,d,b],[0,d,b]];var
-r=qP([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+r=q3([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 i=a;else
 var
 i=e;return i}function
-az(b,a){switch(a[0]){case
+aA(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=ms(function(a){return aG(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
-2:return[2,az(b,a[1])];case
+e=c[1],d=mB(function(a){return aI(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+2:return[2,aA(b,a[1])];case
 3:var
-f=az(b,a[3]),g=az(b,a[2]);return[3,a[1],g,f];case
+f=aA(b,a[3]),g=aA(b,a[2]);return[3,a[1],g,f];case
 4:var
-h=a[2];return[4,az(b,a[1]),h];default:return[5,az(b,a[1])]}}function
-qQ(b,a){if(0===a[0])return[0,az(b,a[1])];var
-c=az(b,a[2]);return[1,az(b,a[1]),c]}function
-k6(b,a){var
+h=a[2];return[4,aA(b,a[1]),h];default:return[5,aA(b,a[1])]}}function
+q4(b,a){if(0===a[0])return[0,aA(b,a[1])];var
+c=aA(b,a[2]);return[1,aA(b,a[1]),c]}function
+ld(b,a){var
 c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]}function
-k7(c,a){if(c)if(a){var
+le(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=k7(h,g);if(e){var
-i=e[1],f=k7(h,i[2]);if(f)var
+e=le(h,g);if(e){var
+i=e[1],f=le(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -7332,97 +7454,104 @@ var
 d=a;else
 var
 d=c;return d}function
-k8(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,k8(g,f[1],h)];var
+lf(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,lf(g,f[1],h)];var
 j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,G(D(c(2,b),l),k),j],h]}else
 var
 i=a;return i}function
-C1(a){if(typeof
+Dg(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-C2(a){if(typeof
+Dh(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-h7(e,a){if(0===a[0]){var
-f=[0,b,c(2,b)],g=h7(e,a[3]);return a_(dG(h7(e,a[2]),g),f)}return h(e,a[1])?[0,b,b]:[0,d,b]}function
-qR(a){return 0===a[0]?eL(a[1][4]):0}function
-qS(a){switch(a[0]){case
+ic(e,a){if(0===a[0]){var
+f=[0,b,c(2,b)],g=ic(e,a[3]);return a_(dL(ic(e,a[2]),g),f)}return h(e,a[1])?[0,b,b]:[0,d,b]}function
+q5(a){return 0===a[0]?eU(a[1][4]):0}function
+q6(a){switch(a[0]){case
 0:var
-b=a[1],c=bi(b[3]);return g(bi(b[2]),c);case
+b=a[1],c=bj(b[3]);return g(bj(b[2]),c);case
 1:var
-d=bi(a[2]);return g(bi(a[1]),d);default:return 0}}function
-h8(a){switch(a[0]){case
-0:return bP(bi(a[1][1]));case
+d=bj(a[2]);return g(bj(a[1]),d);default:return 0}}function
+id(a){switch(a[0]){case
+0:return bR(bj(a[1][1]));case
 1:var
-b=a[3];return b?bP(bi(b[1])):d;default:return bP(bi(a[1]))}}function
-h9(c){var
-a=y(qR,c),d=a?[0,a[1],a[2]]:y(qS,c);return G(b,bP(d))}function
-qT(d,a){if(d){if(a){var
-b=a[1],g=d[1],e=qT(d[2],a[2]);if(e){var
-h=e[1],i=h[2],j=h[1];if(45===b)var
-c=C3;else
-if(43===b)var
-c=C4;else
+b=a[3];return b?bR(bj(b[1])):d;default:return bR(bj(a[1]))}}function
+ie(c){var
+a=y(q5,c),d=a?[0,a[1],a[2]]:y(q6,c);return G(b,bR(d))}function
+q7(d,c){if(d){if(c){var
+a=c[1],e=d[1],f=q7(d[2],c[2]);if(f){var
+i=f[1],j=i[1],g=j[2],k=j[1],l=i[2];if(45===a)var
+b=Di;else
+if(43===a)var
+b=Dj;else
+if(48===a)var
+b=Dk;else
+if(60===a)var
+b=Dl;else
+if(62===a)var
+b=Dm;else
 var
-f=48===b?1:0,n=f?C5:f,c=n;if(c)return[0,[0,[0,[0,g,c[1]],j],i]];var
-k=49===b?1:0,o=k?[0,[0,j,[0,g,i]]]:k,l=o}else
+h=61===a?1:0,q=h?Dn:h,b=q;if(b){var
+m=b[1],r=m[2]?[0,e,g]:g;return[0,[0,[0,[0,[0,e,m[1]],k],r],l]]}var
+n=49===a?1:0,s=n?[0,[0,[0,k,g],[0,e,l]]]:n,o=s}else
 var
-l=e;var
-m=l}else
+o=f;var
+p=o}else
 var
-m=a;return m}return a?0:C6}function
-du(b,c,a){switch(a[0]){case
+p=c;return p}return c?0:Do}function
+dA(b,c,a){switch(a[0]){case
 0:var
-d=a[1];if(aG(d,C7))return C8;if(aG(d,C9))return C_;if(aG(d,C$))return Da;if(aG(d,Db))return Dc;if(aG(d,Dd))return De;var
-n=aG(d,Df),B=n?Dg:n;return B;case
+d=a[1];if(aI(d,Dp))return Dq;if(aI(d,Dr))return Ds;if(aI(d,Dt))return Du;if(aI(d,Dv))return Dw;if(aI(d,Dx))return Dy;var
+n=aI(d,Dz),D=n?DA:n;return D;case
 1:var
-e=a[3],f=a[2],g=a[1];if(aG(g,Dh))return[0,[0,e,f]];if(aG(g,Di))return[0,[1,e,f]];if(aG(g,Dj))return[0,[2,e,f]];var
-o=aG(g,Dk),C=o?[0,[8,e,f]]:o;return C;case
+e=a[3],f=a[2],g=a[1];if(aI(g,DB))return[0,[0,e,f]];if(aI(g,DC))return[0,[1,e,f]];if(aI(g,DD))return[0,[2,e,f]];var
+o=aI(g,DE),E=o?[0,[8,e,f]]:o;return E;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3],a[4]]];case
 5:var
-h=du(b,c,a[1]),D=h?[0,[5,h[1],a[2],a[3]]]:h;return D;case
+h=dA(b,c,a[1]),F=h?[0,[5,h[1],a[2],a[3]]]:h;return F;case
 6:var
-i=du(b,c,a[1]),E=i?[0,[7,i[1],a[2],a[3]]]:i;return E;case
+i=dA(b,c,a[1]),G=i?[0,[7,i[1],a[2],a[3]]]:i;return G;case
 7:var
-F=du(b,c,a[1]);return z(function(a){return[6,a]},F);case
+H=dA(b,c,a[1]);return x(function(a){return[6,a]},H);case
 8:if(b){var
-p=a[3],q=a[2],j=du(b,c,a[1]);if(j){var
-r=j[1],k=qT(b,iT(iS(aD(q),function(a){return bd(q,a)})));if(k){var
-s=k[1],t=s[2],u=s[1];if(t)return[0,[11,c,t,[10,r,u,p]]];var
-v=[0,[10,r,u,p]]}else
+p=a[3],q=a[2],j=dA(b,c,a[1]);if(j){var
+r=j[1],k=q7(b,iZ(iY(aE(q),function(a){return bd(q,a)})));if(k){var
+s=k[1],t=s[1],u=t[2],v=t[1],w=s[2];if(w)return[0,[11,c,w,[10,r,v,u,p]]];var
+y=[0,[10,r,v,u,p]]}else
 var
-v=k;var
-w=v}else
+y=k;var
+z=y}else
 var
-w=j;var
-x=w}else
+z=j;var
+A=z}else
 var
-x=b;return x;case
+A=b;return A;case
 9:var
-y=function(a){if(a){var
-f=a[1],d=du(b,c,f[2]);if(d)var
-e=y(a[2]),h=e?[0,[0,[0,f[1],d[1]],e[1]]]:e,g=h;else
+B=function(a){if(a){var
+f=a[1],d=dA(b,c,f[2]);if(d)var
+e=B(a[2]),h=e?[0,[0,[0,f[1],d[1]],e[1]]]:e,g=h;else
 var
-g=d;return g}return Dl},G=y(a[1]);return z(function(a){return[12,a]},G);default:var
-l=du(b,c,a[3]);if(l)var
-m=du(b,c,a[4]),H=m?[0,[13,a[2],a[1],l[1],m[1]]]:m,A=H;else
+g=d;return g}return DF},I=B(a[1]);return x(function(a){return[12,a]},I);default:var
+l=dA(b,c,a[3]);if(l)var
+m=dA(b,c,a[4]),J=m?[0,[13,a[2],a[1],l[1],m[1]]]:m,C=J;else
 var
-A=l;return A}}function
-qU(e,d,a){if(a){var
-f=a[1],b=du(e,d,f[2]);if(b)var
-c=qU(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
+C=l;return C}}function
+q8(e,d,a){if(a){var
+f=a[1],b=dA(e,d,f[2]);if(b)var
+c=q8(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
 var
-g=b;return g}return Dm}function
-ed(b,g,f,e,d,a){if(d)if(a){var
+g=b;return g}return DG}function
+ek(b,g,f,e,d,a){if(d)if(a){var
 c=a[1];if(c[3])return 0;if(c[4])return 0;var
-n=c[2],o=a[2],p=d[1],h=qU(f,e,c[1]);if(h){var
+n=c[2],o=a[2],p=d[1],h=q8(f,e,c[1]);if(h){var
 i=h[1];if(n){var
-j=ed(b,g,f,e,p,o);if(j){var
-q=j[1],k=ed(b,g,f,e,p,q[2]);if(k){var
-r=k[1],s=r[1],t=q[1],l=n[1],y=r[2];if(aE(l,b))var
+j=ek(b,g,f,e,p,o);if(j){var
+q=j[1],k=ek(b,g,f,e,p,q[2]);if(k){var
+r=k[1],s=r[1],t=q[1],l=n[1],z=r[2];if(aF(l,b))var
 u=[0,[1,i,l,t,s]];else
 var
-x=E(g,dE(l,b)),u=z(function(a){return[2,i,a,t,s]},x);return z(function(a){return[0,a,y]},u)}var
+y=E(g,dJ(l,b)),u=x(function(a){return[2,i,a,t,s]},y);return x(function(a){return[0,a,z]},u)}var
 v=k}else
 var
 v=j;return v}var
@@ -7434,67 +7563,67 @@ var
 m=a;else
 var
 m=d;return m}function
-k9(i,h,g,e,d,a){if(d){if(a){var
-b=ed(i,h,g,e,f(a),a);if(b)var
-j=b[1],c=k9(i,h,g,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
+lg(i,h,g,e,d,a){if(d){if(a){var
+b=ek(i,h,g,e,f(a),a);if(b)var
+j=b[1],c=lg(i,h,g,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
 var
-k=b;return k}return Dn}return a?0:Do}function
-qV(a){if(typeof
-a==="number")return 0===a?Dp:Dq;else
+k=b;return k}return DH}return a?0:DI}function
+q9(a){if(typeof
+a==="number")return 0===a?DJ:DK;else
 switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return[0,[1,a[1],a[2]]];default:return 0}}function
-k_(e,d,a){if(d)if(a){var
+lh(e,d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 j=b[4],c=b[3],k=b[2],l=a[2],m=d[1];if(k){if(c)return 0;if(j)return 0;var
-f=k[1],g=k_(e,m,l);if(g){var
-n=g[1],o=n[1],h=k_(e,m,n[2]);if(h){var
-p=h[1],q=p[2],r=p[1];if(aE(f,Dr))return[0,[0,[1,f,o,r],q]];var
-t=E(e,dE(f,Ds));return z(function(a){return[0,[2,a,o,r],q]},t)}var
+f=k[1],g=lh(e,m,l);if(g){var
+n=g[1],o=n[1],h=lh(e,m,n[2]);if(h){var
+p=h[1],q=p[2],r=p[1];if(aF(f,DL))return[0,[0,[1,f,o,r],q]];var
+t=E(e,dJ(f,DM));return x(function(a){return[0,[2,a,o,r],q]},t)}var
 s=h}else
 var
 s=g;return s}if(c){var
-u=qV(c[1]);return z(function(a){return[0,[0,j,a],l]},u)}var
+u=q9(c[1]);return x(function(a){return[0,[0,j,a],l]},u)}var
 i=c}else
 var
 i=a;else
 var
 i=d;return i}function
-dv(b,a){return 0===b[0]?[0,k(b[1]),a]:a?[0,a[1],a[2]]:[0,k(b[1]),0]}function
-ee(a,e){var
-b=dv(a[1],e),c=dv(a[2],b[2]),d=dv(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-qW(d,c){if(d){var
+dB(b,a){return 0===b[0]?[0,k(b[1]),a]:a?[0,a[1],a[2]]:[0,k(b[1]),0]}function
+el(a,e){var
+b=dB(a[1],e),c=dB(a[2],b[2]),d=dB(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+q_(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=ee(a[1],c),f=ee(a[2],e[2]),g=ee(a[3],f[2]),h=dv(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=el(a[1],c),f=el(a[2],e[2]),g=el(a[3],f[2]),h=dB(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=ee(a[1],c),k=j[1],l=ee(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=ee(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=el(a[1],c),k=j[1],l=el(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=el(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=ee(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=qW(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-f$(t,g){var
+p=el(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=q_(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+gh(t,g){var
 u=t[3];if(typeof
-g==="number")return 0===g?Dw:Dx;else
+g==="number")return 0===g?DQ:DR;else
 switch(g[0]){case
 0:var
 v=g[2],h=g[1],B=E(u,h);if(B){var
 ab=0,C=B[1];if(typeof
 C==="number"||!(13===C[0]))ab=1;else
 var
-x=t[1],A=h9(x),a=e(function(a){var
-g=f(x);if(n(f(a),g)){var
-h=V(x,a);return e(function(a){var
-e=a[2],f=F(d,A),g=2===a[1][0]?1:0;return cE(g,f)?D(e,cf(c(2,b),cC(A))):e},h)}return a},v);if(ab)var
+y=t[1],A=ie(y),a=e(function(a){var
+g=f(y);if(n(f(a),g)){var
+h=V(y,a);return e(function(a){var
+e=a[2],f=F(d,A),g=2===a[1][0]?1:0;return cI(g,f)?D(e,cj(c(2,b),cG(A))):e},h)}return a},v);if(ab)var
 a=v}else
 var
 a=v;var
-ac=E(u,h),ad=t[1],w=z(function(b){if(typeof
+ac=E(u,h),ad=t[1],w=x(function(b){if(typeof
 b!=="number")switch(b[0]){case
-5:return Du;case
+5:return DO;case
 12:var
-a=E(ad,b[1]);if(a){if(2===a[1][0])return Dv;var
+a=E(ad,b[1]);if(a){if(2===a[1][0])return DP;var
 c=0}else
 var
 c=a;return c;case
@@ -7503,7 +7632,7 @@ c=a;return c;case
 4:case
 6:case
 7:case
-11:return 0}return Dt},ac);if(w){var
+11:return 0}return DN},ac);if(w){var
 G=w[1];if(G){var
 H=G[1];if(H){if(H[1])return 0;if(a){var
 i=a[1];if(i){var
@@ -7556,34 +7685,34 @@ Y=[0,[0,d,d],d],Z=[0,[0,h,Y,Y]]}else
 var
 Z=w;return Z;case
 1:var
-_=g[1],y=E(u,_);if(y){var
-$=y[1];if(typeof
+_=g[1],z=E(u,_);if(z){var
+$=z[1];if(typeof
 $!=="number"&&1===$[0])return[0,[1,_,g[2]]];var
 aa=0}else
 var
-aa=y;return aa;default:return 0}}function
-bq(a,b){if(a){var
-c=dv(a[1],b),d=bq(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-aM(c){function
-a(a){return s(a,c,[0,d,b])}var
-e=a(Dy),f=a(Dz);return[0,a(0),f,e]}function
-qX(a,b){if(a){var
-c=a[1],d=bq(c[1],b),e=bq(c[2],d[2]),f=qX(a[2],e[2]),g=f[2],h=f[1],i=aM(e[1]);return[0,[0,[0,aM(d[1]),i],h],g]}return[0,0,b]}function
-k$(f,e){if(f){var
+aa=z;return aa;default:return 0}}function
+bt(a,b){if(a){var
+c=dB(a[1],b),d=bt(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+aN(c){function
+a(a){return r(a,c,[0,d,b])}var
+e=a(DS),f=a(DT);return[0,a(0),f,e]}function
+q$(a,b){if(a){var
+c=a[1],d=bt(c[1],b),e=bt(c[2],d[2]),f=q$(a[2],e[2]),g=f[2],h=f[1],i=aN(e[1]);return[0,[0,[0,aN(d[1]),i],h],g]}return[0,0,b]}function
+li(f,e){if(f){var
 a=f[1];switch(a[0]){case
 0:var
-g=bq(a[1],e),h=bq(a[2],g[2]),i=bq(a[3],h[2]),j=dv(a[4],i[2]),A=j[2],B=a[5],C=j[1],D=aM(i[1]),E=aM(h[1]),c=[0,[0,[0,aM(g[1]),E,D,C,B]],A];break;case
+g=bt(a[1],e),h=bt(a[2],g[2]),i=bt(a[3],h[2]),j=dB(a[4],i[2]),A=j[2],B=a[5],C=j[1],D=aN(i[1]),E=aN(h[1]),c=[0,[0,[0,aN(g[1]),E,D,C,B]],A];break;case
 1:var
-k=a[3],l=bq(a[1],e),m=l[1],n=bq(a[2],l[2]),o=n[2],p=n[1];if(k)var
-q=bq(k[1],o),F=q[2],G=[0,aM(q[1])],H=aM(p),c=[0,[0,[1,aM(m),H,G]],F];else
+k=a[3],l=bt(a[1],e),m=l[1],n=bt(a[2],l[2]),o=n[2],p=n[1];if(k)var
+q=bt(k[1],o),F=q[2],G=[0,aN(q[1])],H=aN(p),c=[0,[0,[1,aN(m),H,G]],F];else
 var
-I=aM(p),c=[0,[0,[1,aM(m),I,0]],o];break;case
+I=aN(p),c=[0,[0,[1,aN(m),I,0]],o];break;case
 2:var
-r=bq(a[1],e),J=r[2],c=[0,[0,[2,aM(r[1])]],J];break;default:var
-s=a[1],t=bq(s,e),u=bq(a[2],t[2]),v=bq(a[3],u[2]),w=bq(a[4],v[2]),x=dv(a[5],w[2]),y=dv(a[6],x[2]),K=s?aM(t[1]):[0,[0,d,b],[0,d,b],[0,b,b]],L=y[2],M=a[7],N=y[1],O=x[1],P=aM(w[1]),Q=aM(v[1]),c=[0,[1,[0,K,aM(u[1]),Q,P,O,N,M]],L]}var
-z=k$(f[2],c[2]);return[0,[0,c[1],z[1]],z[2]]}return[0,0,e]}function
-dw(a){return m0(j,a)}function
-DA(a){if(typeof
+r=bt(a[1],e),J=r[2],c=[0,[0,[2,aN(r[1])]],J];break;default:var
+s=a[1],t=bt(s,e),u=bt(a[2],t[2]),v=bt(a[3],u[2]),w=bt(a[4],v[2]),x=dB(a[5],w[2]),y=dB(a[6],x[2]),K=s?aN(t[1]):[0,[0,d,b],[0,d,b],[0,b,b]],L=y[2],M=a[7],N=y[1],O=x[1],P=aN(w[1]),Q=aN(v[1]),c=[0,[1,[0,K,aN(u[1]),Q,P,O,N,M]],L]}var
+z=li(f[2],c[2]);return[0,[0,c[1],z[1]],z[2]]}return[0,0,e]}function
+dC(a){return m8(j,a)}function
+DU(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 5:return i(j,1,[3,a[1],[0,b,b]]);case
@@ -7600,11 +7729,11 @@ h=i(j,0,a[1]);return h?i(j,1,a[2]):h;case
 15:var
 k=[0,a[2],a[1]],m=1;return l(function(a){return i(j,m,a)},k);case
 2:case
-3:return dw(a[2]);case
+3:return dC(a[2]);case
 4:case
 13:var
 c=i(j,1,a[2]);return c?i(j,1,a[3]):c;default:return i(j,1,a[1])}}function
-la(a){if(typeof
+lj(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
@@ -7616,25 +7745,25 @@ B=[0,a[2],a[1]],C=1;return l(function(a){return i(j,C,a)},B);case
 11:var
 m=a[2],n=i(j,1,m);return n?i(j,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],m]):n;case
 13:var
-o=a[4],p=pg(a[3]),r=p?i(j,1,o):p;return r?i(j,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],o]):r;case
+o=a[4],p=pu(a[3]),r=p?i(j,1,o):p;return r?i(j,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],o]):r;case
 14:return i(j,0,a[3]);case
 15:var
 s=i(j,0,a[2]),t=s?i(j,0,a[3]):s;return t?i(j,1,a[4]):t;case
 16:var
 u=a[3],v=i(j,0,a[1]),w=v?i(j,1,a[2]):v,x=w?i(j,0,u):w;return x?i(j,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],u]):x;case
 17:var
-y=a[2],z=l(dw,y),A=z?al(function(a){return i(j,1,[4,a,a])},y):z;return A?i(j,1,a[3]):A;case
+y=a[2],z=l(dC,y),A=z?aj(function(a){return i(j,1,[4,a,a])},y):z;return A?i(j,1,a[3]):A;case
 2:case
-3:return dw(a[2]);case
+3:return dC(a[2]);case
 6:case
 7:case
 9:var
 k=i(j,1,a[2]);return k?i(j,1,a[3]):k;default:return i(j,1,a[1])}}function
-h_(d){var
+ig(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=I(al(function(d){return function(a){var
-h=kS(a[1]),e=aG(kS(d[1]),h);if(e)var
-i=kT(a[4]),b=aG(kT(d[4]),i);else
+b=a[2],e=a[1],c=I(aj(function(d){return function(a){var
+h=k1(a[1]),e=aI(k1(d[1]),h);if(e)var
+i=k2(a[4]),b=aI(k2(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
@@ -7643,121 +7772,121 @@ g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-ga(a){if(0===a[0])return dw(k(a[1]));var
-b=a[2],c=a[1];if(!dK(k(c))&&!dK(k(b))){var
+gi(a){if(0===a[0])return dC(k(a[1]));var
+b=a[2],c=a[1];if(!dQ(k(c))&&!dQ(k(b))){var
 e=k(c);return i(j,1,[3,k(b),e])}var
-d=k(b);return bD(j,k(c),d)}function
-ef(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-qY(a){switch(a[0]){case
+d=k(b);return bE(j,k(c),d)}function
+em(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+ra(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=g(ef(a[3]),c),e=g(ef(a[2]),d);return g(ef(a[1]),e);case
+c=[0,a[4],0],d=g(em(a[3]),c),e=g(em(a[2]),d);return g(em(a[1]),e);case
 1:var
-b=a[3],f=b?ef(b[1]):b,h=g(ef(a[2]),f);return g(ef(a[1]),h);default:return ef(a[1])}}function
-qZ(s,a,m){if(al(function(a){return 9===a[1]?1:0},m)){var
-b=ae(f(a),DD),c=b?l(function(a){if(0===a[0]){var
+b=a[3],f=b?em(b[1]):b,h=g(em(a[2]),f);return g(em(a[1]),h);default:return em(a[1])}}function
+rb(s,a,m){if(aj(function(a){return 9===a[1]?1:0},m)){var
+b=ae(f(a),DX),c=b?l(function(a){if(0===a[0]){var
 d=a[5],e=i(j,1,k(a[2])),f=e?i(j,0,k(a[3])):e,m=f?i(j,0,k(a[4])):f,c=0;if(m)if(d)var
-p=b9(d[1]),b=l(function(a){return dw(k(a))},p);else{var
+p=cb(d[1]),b=l(function(a){return dC(k(a))},p);else{var
 n=1;c=1}else{var
 n=m;c=1}if(c)var
 b=n}else{var
 o=i(j,1,k(a[4]));if(o)var
-q=b9(a[3]),r=g(b9(a[2]),q),b=l(function(a){return dw(k(a))},r);else
+q=cb(a[3]),r=g(cb(a[2]),q),b=l(function(a){return dC(k(a))},r);else
 var
 b=o}return b?h(s,a):b},a):b;if(c)var
-d=h0(0,a),n=d?1:d,e=n;else
+d=h7(0,a),n=d?1:d,e=n;else
 var
 e=c;return e}return a?0:1}function
-q0(a){return a?DE:DF}function
-h$(a){switch(a){case
-0:return DG;case
-1:return DH;default:return 0}}function
-dx(a){var
-f=a[1],d=i(j,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],f]),e=d?bD(j,a[1],a[2]):d;if(e){var
+rc(a){return a?DY:DZ}function
+ih(a){switch(a){case
+0:return D0;case
+1:return D1;default:return 0}}function
+dD(a){var
+f=a[1],d=i(j,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],f]),e=d?bE(j,a[1],a[2]):d;if(e){var
 g=a[2];return i(j,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],g])}return e}function
-e4(a){var
-e=bD(j,[0,d,b],a);return e?i(j,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
-q1(c,b,a){if(0===a[0]){var
+fb(a){var
+e=bE(j,[0,d,b],a);return e?i(j,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
+rd(c,b,a){if(0===a[0]){var
 d=a[2],e=a[1],g=n(f(e),c),h=g?n(f(d),c):g;if(h){var
 o=V(e,d);return l(function(a){var
-b=k(a[2]);return bD(j,k(a[1]),b)},o)}return h}var
+b=k(a[2]);return bE(j,k(a[1]),b)},o)}return h}var
 m=b?i(j,1,k(a[3])):b;if(m){var
-p=k(a[5]);return bD(j,k(a[4]),p)}return m}function
-q2(a,e,F,E,t,s,g){function
+p=k(a[5]);return bE(j,k(a[4]),p)}return m}function
+re(a,e,F,E,t,s,g){function
 u(b){var
-d=q0(a),c=n(f(b),d);return c?l(ga,b):c}var
+d=rc(a),c=n(f(b),d);return c?l(gi,b):c}var
 v=l(function(a){var
 b=u(a[1]);return b?u(a[2]):b},e);if(v)var
-G=f(e),o=ae(bG(a),G);else
+G=f(e),o=ae(bH(a),G);else
 var
 o=v;var
-w=o?ae(f(e),DI):o,x=w?i(j,1,k(F)):w;if(x)var
-H=1===a?1:0,p=q1(h$(a),H,E);else
+w=o?ae(f(e),D2):o,x=w?i(j,1,k(F)):w;if(x)var
+H=1===a?1:0,p=rd(ih(a),H,E);else
 var
 p=x;if(p)if(a){var
-d=eb(t);switch(d[0]){case
+d=ei(t);switch(d[0]){case
 0:var
 h=0;break;case
 1:var
-A=dx(d[1]),B=A?dx(d[2]):A,h=B?dx(d[3]):B;break;case
+A=dD(d[1]),B=A?dD(d[2]):A,h=B?dD(d[3]):B;break;case
 2:var
-h=e4(d[1]);break;default:var
-C=e4(d[1]),h=C?e4(d[2]):C}var
+h=fb(d[1]);break;default:var
+C=fb(d[1]),h=C?fb(d[2]):C}var
 m=h}else
 var
-D=eb(t),J=0===D[0]?dx(D[1]):0,m=J;else
+D=ei(t),J=0===D[0]?dD(D[1]):0,m=J;else
 var
 m=p;if(m)var
-I=f(e),q=qZ(function(a){if(0===a[0]){var
-b=a[1],c=ae(DC,b),d=c?ae(b,I):c;if(d){if(a[5])return 0;var
+I=f(e),q=rb(function(a){if(0===a[0]){var
+b=a[1],c=ae(DW,b),d=c?ae(b,I):c;if(d){if(a[5])return 0;var
 e=1}else
 var
 e=d;return e}return 1},s,g);else
 var
 q=m;if(q)var
-b=f(e),c=bG(a),y=q0(a),r=l(function(a){var
+b=f(e),c=bH(a),y=rc(a),r=l(function(a){var
 e=a[2];if(e)var
-g=e[1],h=ae(CT,g),w=h?ae(g,b):h,d=w;else
+g=e[1],h=ae(C_,g),w=h?ae(g,b):h,d=w;else
 var
 d=1;switch(a[1]){case
 9:var
 i=a[4];if(typeof
-i!=="number"&&0===i[0])return a[2]?aJ(c,b,a):a[3]?aJ(c,b,a):1;return aJ(c,b,a);case
+i!=="number"&&0===i[0])return a[2]?aK(c,b,a):a[3]?aK(c,b,a):1;return aK(c,b,a);case
 10:var
 j=a[4];if(typeof
 j!=="number"&&1===j[0]){var
-k=a[3];return k?2===k[1][0]?d:aJ(c,b,a):aJ(c,b,a)}return aJ(c,b,a);case
+k=a[3];return k?2===k[1][0]?d:aK(c,b,a):aK(c,b,a)}return aK(c,b,a);case
 12:var
 l=a[4];if(typeof
-l!=="number"&&1===l[0]){if(a[2])return aJ(c,b,a);var
-m=a[3];return m?3===m[1][0]?n(b,c):aJ(c,b,a):aJ(c,b,a)}return aJ(c,b,a);case
+l!=="number"&&1===l[0]){if(a[2])return aK(c,b,a);var
+m=a[3];return m?3===m[1][0]?n(b,c):aK(c,b,a):aK(c,b,a)}return aK(c,b,a);case
 14:var
 o=a[4];if(typeof
 o!=="number"&&1===o[0]){var
 p=a[3];if(p){var
 q=p[1];if(1===q[0]){var
-r=n(f(q[1]),y),x=r?d:r;return x}return aJ(c,b,a)}return aJ(c,b,a)}return aJ(c,b,a);case
+r=n(f(q[1]),y),x=r?d:r;return x}return aK(c,b,a)}return aK(c,b,a)}return aK(c,b,a);case
 15:var
 s=a[4];if(typeof
 s!=="number"&&1===s[0]){var
 t=a[3];if(t){var
 u=t[1];if(1===u[0]){var
-v=n(f(u[1]),y),z=v?d:v;return z}return aJ(c,b,a)}return aJ(c,b,a)}return aJ(c,b,a);default:return aJ(c,b,a)}},g);else
+v=n(f(u[1]),y),z=v?d:v;return z}return aK(c,b,a)}return aK(c,b,a)}return aK(c,b,a);default:return aK(c,b,a)}},g);else
 var
 r=q;var
-z=r?h_(g):r;return z?l(la,e3(0,f(e),s,g)):z}function
-lb(a){switch(a[0]){case
+z=r?ig(g):r;return z?l(lj,fa(0,f(e),s,g)):z}function
+lk(a){switch(a[0]){case
 0:var
 c=g(a[3],[0,a[4],0]),d=g(a[2],c);return g(a[1],d);case
 1:var
 b=a[3],e=b?b[1]:b,f=g(a[2],e);return g(a[1],f);case
 2:return a[1];default:var
 h=g(a[4],[0,a[5],[0,a[6],0]]),i=g(a[3],h),j=g(a[2],i);return g(a[1],j)}}function
-ia(a,b,e,T,p,m){var
+ii(a,b,e,T,p,m){var
 q=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 c(a){var
-b=q?DJ:DK;return n(f(a),b)}var
-h=ec(b),w=l(function(b){switch(b[0]){case
+b=q?D3:D4;return n(f(a),b)}var
+h=ej(b),w=l(function(b){switch(b[0]){case
 0:var
 f=I(h),g=f?c(b[1]):f,i=g?c(b[2]):g;return i?c(b[3]):i;case
 1:var
@@ -7779,23 +7908,23 @@ r=b[1],s=q?r?0:1:c(r),t=s?c(b[2]):s,u=t?c(b[3]):t;return u?c(b[4]):u}},b);if(w)v
 U=f(b),r=ae(an(a),U);else
 var
 r=w;var
-x=r?ae(f(b),DL):r,A=x?l(ga,y(lb,b)):x;if(A){var
+z=r?ae(f(b),D5):r,A=z?l(gi,y(lk,b)):z;if(A){var
 S=0;if(typeof
 a==="number"&&!a){var
 B=1;S=1}if(!S)var
 B=0;var
-V=q?DM:DN,s=q1(V,B,T)}else
+V=q?D6:D7,s=rd(V,B,T)}else
 var
 s=A;if(s)if(typeof
 a==="number")if(e)var
 d=0;else
 var
-W=z(eb,p)?0:1,d=W;else
+W=x(ei,p)?0:1,d=W;else
 switch(a[1]){case
 0:if(e){var
-t=z(eb,p);if(t){var
+t=x(ei,p);if(t){var
 G=t[1];if(0===G[0])var
-H=i(j,1,k(e[1])),J=H?dx(G[1]):H;else
+H=i(j,1,k(e[1])),J=H?dD(G[1]):H;else
 var
 J=0;var
 K=J}else
@@ -7805,15 +7934,15 @@ d=K}else
 var
 d=e;break;case
 1:if(e){var
-u=e[1],v=z(eb,p);if(v){var
+u=e[1],v=x(ei,p);if(v){var
 g=v[1];switch(g[0]){case
 0:var
 o=0;break;case
 1:var
-M=i(j,1,k(u)),N=M?dx(g[1]):M,O=N?dx(g[2]):N,o=O?dx(g[3]):O;break;case
+M=i(j,1,k(u)),N=M?dD(g[1]):M,O=N?dD(g[2]):N,o=O?dD(g[3]):O;break;case
 2:var
-P=i(j,1,k(u)),o=P?e4(g[1]):P;break;default:var
-Q=i(j,1,k(u)),R=Q?e4(g[1]):Q,o=R?e4(g[2]):R}var
+P=i(j,1,k(u)),o=P?fb(g[1]):P;break;default:var
+Q=i(j,1,k(u)),R=Q?fb(g[1]):Q,o=R?fb(g[2]):R}var
 L=o}else
 var
 L=v;var
@@ -7824,136 +7953,136 @@ d=0}else
 var
 d=s;var
 C=d?l(function(c){var
-d=qF(h,a,f(b),c);if(d)var
+d=qT(h,a,f(b),c);if(d)var
 e=d;else{var
-g=cX(c);if(g)return aJ(0,0,c);var
+g=c1(c);if(g)return aK(0,0,c);var
 e=g}return e},m):d,D=C?l(function(a){var
 e=a[1];if(4===e){var
 f=a[2];if(f)var
-c=E(b,aS(f[1])),j=c?[0,c[1],0]:c,g=j;else
+c=E(b,aT(f[1])),j=c?[0,c[1],0]:c,g=j;else
 var
 g=b;return l(function(a){switch(a[0]){case
 0:case
 3:return 1;default:return 0}},g)}if(13===e){var
 h=a[2];if(h)var
-d=E(b,aS(h[1])),k=d?[0,d[1],0]:d,i=k;else
+d=E(b,aT(h[1])),k=d?[0,d[1],0]:d,i=k;else
 var
 i=b;return l(function(a){switch(a[0]){case
 0:case
-3:return 1;default:return 0}},i)}return 1},m):C,F=D?h_(m):D;return F?l(la,e3(h,f(b),0,m)):F}function
-DO(a){switch(a[0]){case
-0:return hp(a[1][1]);case
+3:return 1;default:return 0}},i)}return 1},m):C,F=D?ig(m):D;return F?l(lj,fa(h,f(b),0,m)):F}function
+D8(a){switch(a[0]){case
+0:return hw(a[1][1]);case
 1:var
-b=a[3];return b?hp(b[1]):1;default:return hp(a[1])}}function
-ib(a,k,b,d){var
-e=qZ(function(g){if(0===g[0]){var
-c=g[1],d=ae(DB,c);if(d){var
-b=E(a,aS(c));if(b){if(2===b[1][0])return 0;var
+b=a[3];return b?hw(b[1]):1;default:return hw(a[1])}}function
+ij(a,k,b,d){var
+e=rb(function(g){if(0===g[0]){var
+c=g[1],d=ae(DV,c);if(d){var
+b=E(a,aT(c));if(b){if(2===b[1][0])return 0;var
 e=1}else
 var
 e=b;var
 f=e}else
 var
-f=d;return f}return 1},k,b),g=e?l(DO,d[1]):e,h=g?ae(DP,f(a)):g;if(h)var
-m=f(a),c=l(function(a){return CJ(m,a)},b);else
+f=d;return f}return 1},k,b),g=e?l(D8,d[1]):e,h=g?ae(D9,f(a)):g;if(h)var
+m=f(a),c=l(function(a){return C0(m,a)},b);else
 var
 c=h;var
-i=c?h_(b):c,j=i?l(ga,y(qY,a)):i;return j?l(DA,d[3]):j}function
-q3(m,k,a,j,i,b){var
+i=c?ig(b):c,j=i?l(gi,y(ra,a)):i;return j?l(DU,d[3]):j}function
+rf(m,k,a,j,i,b){var
 c=f(m),o=f(i),d=n(f(j),o),e=d?l(function(b){if(12===b[1]){var
 o=0,e=b[4];if(typeof
 e!=="number"&&1===e[0]){if(b[2])var
-k=aJ(c,f(a),b);else
+k=aK(c,f(a),b);else
 var
-m=b[3],q=m?0===m[1][0]?n(c,f(a)):aJ(c,f(a),b):aJ(c,f(a),b),k=q;var
+m=b[3],q=m?0===m[1][0]?n(c,f(a)):aK(c,f(a),b):aK(c,f(a),b),k=q;var
 g=k;o=1}if(!o)var
-g=aJ(c,f(a),b);var
+g=aK(c,f(a),b);var
 d=g}else
 var
-d=aJ(c,f(a),b);if(d){var
+d=aK(c,f(a),b);if(d){var
 h=b[1]-1|0;if(!(11<h>>>0))switch(h){case
 0:var
-j=b[2],p=j?[0,aS(j[1]),0]:aI(0,f(a));return l(function(c){var
+j=b[2],p=j?[0,aT(j[1]),0]:aB(0,f(a));return l(function(c){var
 b=E(a,c);return b?0===b[1][0]?0:1:b},p);case
 10:return l(function(a){return 0===a[0]?0:1},a);case
 11:return l(function(a){return 0===a[0]?0:1},a)}var
 i=1}else
 var
-i=d;return i},b):d,g=e?h_(b):e,h=g?l(function(a){return ga(a[2])},k):g;return h?l(la,e3(0,f(a),0,b)):h}function
-q4(a){if(a){var
-b=a[1];if(cX(b))return 0;var
-c=[0,b,q4(a[2])]}else
+i=d;return i},b):d,g=e?ig(b):e,h=g?l(function(a){return gi(a[2])},k):g;return h?l(lj,fa(0,f(a),0,b)):h}function
+rg(a){if(a){var
+b=a[1];if(c1(b))return 0;var
+c=[0,b,rg(a[2])]}else
 var
 c=a;return c}function
-eg(h,g,d,c,b){var
-i=q4(b),k=y(function(a){return h2(h,d,c,a)},i),l=mt(e(function(a){return fI(j,g,a)},k)),a=y(qD,b),m=a?[0,a[1],a[2]]:DQ;return N(f(m),l)}function
-lc(a){return 2<=a?DR:DS}function
-ld(m,l,k,j,f,i){var
-g=eg(m,l,k,j,f),c=qV(i);if(c){var
+en(h,g,d,c,b){var
+i=rg(b),k=y(function(a){return h9(h,d,c,a)},i),l=mC(e(function(a){return fQ(j,g,a)},k)),a=y(qR,b),m=a?[0,a[1],a[2]]:D_;return N(f(m),l)}function
+ll(a){return 2<=a?D$:Ea}function
+lm(m,l,k,j,f,i){var
+g=en(m,l,k,j,f),c=q9(i);if(c){var
 a=c[1],e=0;if(typeof
 a==="number")var
 h=[0,a];else
 if(0===a[0]){var
 o=a[2],p=a[1],b=p,d=function(a){return[0,a,o]};e=1}else{var
-q=a[2],r=a[1],b=r,d=function(a){return[1,a,q]};e=1}if(e){if(!I(al(cX,f))&&!aE(b,g))return n(b,g)?0:[0,d(aS(b))];return[0,d(b)]}}else
+q=a[2],r=a[1],b=r,d=function(a){return[1,a,q]};e=1}if(e){if(!I(aj(c1,f))&&!aF(b,g))return n(b,g)?0:[0,d(aT(b))];return[0,d(b)]}}else
 var
 h=c;return h}function
-gb(b,a){var
-c=f(a6(function(a){return 0===a[0]?0:1},b));return n(f(a),c)}function
-ic(a){var
-b=V(aI(0,f(a)),a);return e(aA,a6(function(a){return jG(a[2])},b))}function
-q5(a){var
-b=a[1],c=e(h8,a[1]);return hh(h9(a[1]),c,b)}function
-le(a){return ic(q5(a))}function
-q6(b,a){if(a){var
-c=a[1],d=a[2],f=q6(N(b,c[1]),d),h=c[2];return g(e(function(a){return aI(N(b,a),DT)},h),f)}return a}function
-q7(e,a){function
+gj(b,a){var
+c=f(aZ(function(a){return 0===a[0]?0:1},b));return n(f(a),c)}function
+ik(a){var
+b=V(aB(0,f(a)),a);return e(at,aZ(function(a){return jP(a[2])},b))}function
+rh(a){var
+b=a[1],c=e(id,a[1]);return ho(ie(a[1]),c,b)}function
+ln(a){return ik(rh(a))}function
+ri(b,a){if(a){var
+c=a[1],d=a[2],f=ri(N(b,c[1]),d),h=c[2];return g(e(function(a){return aB(N(b,a),Eb)},h),f)}return a}function
+rj(e,a){function
 b(f){var
 a=E(e,f);if(a){var
-b=nP(a[1]);if(b)return L(b[1],d);var
+b=n3(a[1]);if(b)return L(b[1],d);var
 c=1}else
 var
 c=a;return c}var
-c=q6(0,a);return a6(function(a){return l(b,a)},c)}function
-q8(a){switch(a[0]){case
-0:return DU;case
-1:return a[3]?DV:DW;default:return DX}}function
-DY(a){return 0===a[0]?q8(a[1]):DZ}function
-id(a){if(a){var
+c=ri(0,a);return aZ(function(a){return l(b,a)},c)}function
+rk(a){switch(a[0]){case
+0:return Ec;case
+1:return a[3]?Ed:Ee;default:return Ef}}function
+Eg(a){return 0===a[0]?rk(a[1]):Eh}function
+il(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
-lf(aB,Z,aA,Y,X,b,az,W){var
-a=h1(Z,aA,Y,X),aC=f(W),aD=e(q8,a[1]),aE=q7(q5(a),aD),aF=aB?0:le(a),B=ed(D0,le(a),aF,aE,aC,W);if(B){var
+lo(aB,Z,aA,Y,X,b,ay,W){var
+a=h8(Z,aA,Y,X),aC=f(W),aD=e(rk,a[1]),aE=rj(rh(a),aD),aF=aB?0:ln(a),B=ek(Ei,ln(a),aF,aE,aC,W);if(B){var
 _=B[1];if(_[2])return 0;var
-$=ib(Z,Y,X,a);if($){var
-aG=_[1],C=e(h8,a[1]),c=h9(a[1]),aI=id(az),V=od(j,a);if(V){var
-n=hh(c,C,a[1]),i=jD(c,C,a[1],0),ac=f(a[3]),ae=N(f(n),ac),J=[0,f(n),ae],af=a[3],E=al(function(a){if(typeof
+$=ij(Z,Y,X,a);if($){var
+aG=_[1],C=e(id,a[1]),c=ie(a[1]),aH=il(ay),V=or(j,a);if(V){var
+n=ho(c,C,a[1]),i=jM(c,C,a[1],0),ad=f(a[3]),ae=N(f(n),ad),J=[0,f(n),ae],af=a[3],E=aj(function(a){if(typeof
 a!=="number"&&14===a[0])return 1;return 0},af),ag=E?y(function(a){var
-b=e(aH,fE(n,a[4]));return[0,a[4],b]},i):E,ah=g(jF(i,c,J,a[3]),ag),ai=g(bE(nd(i)),ah),L=g(bE(fu(i)),ai),M=c7(L),O=c6(M),q=cL(O),P=l(function(a){var
-b=m(d);return aZ(s(h(q,a),O,b),a)},L);if(P){var
-Q=al(vm,a[3]);if(Q){var
+b=e(aJ,fM(n,a[4]));return[0,a[4],b]},i):E,ah=g(jO(i,c,J,a[3]),ag),ai=g(bF(nl(i)),ah),L=g(bF(fC(i)),ai),M=db(L),O=da(M),q=cP(O),P=l(function(a){var
+b=m(d);return a0(r(h(q,a),O,b),a)},L);if(P){var
+Q=aj(vD,a[3]);if(Q){var
 t=C,o=a[1];for(;;){if(o){var
-p=o[1],u=bJ(d,t);switch(p[0]){case
+p=o[1],u=bK(d,t);switch(p[0]){case
 0:var
-F=p[1],G=hk(b,F[1],u),D=0;if(G){var
-r=ar(b,[0,F[4],c]);if(r)var
-k=K(d,r[1][1]);else{var
-H=r;D=1}}else{var
+F=p[1],G=hr(b,F[1],u),D=0;if(G){var
+s=ar(b,[0,F[4],c]);if(s)var
+k=K(d,s[1][1]);else{var
+H=s;D=1}}else{var
 H=G;D=1}if(D)var
 k=H;break;case
 1:var
-I=p[3],k=I?hk(b,I[1],u):1;break;default:var
-k=hk(b,p[1],u)}if(k){var
-ab=o[2],t=bz(t),o=ab;continue}var
+I=p[3],k=I?hr(b,I[1],u):1;break;default:var
+k=hr(b,p[1],u)}if(k){var
+ab=o[2],t=bC(t),o=ab;continue}var
 R=k}else
 var
 R=1;var
 v=R;break}}else
 var
 v=Q;if(v){var
-aj=a[3],ak=y(function(a){return dR(c,a)},aj),am=a[3],an=g(n,g(e(function(a){return b2(c,a)},am),ak)),w=ad(e(function(a){return ar(b,a)},an));if(w){var
-ao=bg(eJ(a[2]),c),x=ad(e(function(a){return ar(b,a)},ao));if(x){var
-z=ad(n2(b,aI,q,n,i,c,J,a[3]));if(z){var
-S=z[1],ap=jC(S),aq=x[1],as=a[2],at=function(a){return n3(b,as,c,a)},au=w[1],av=nd(i),aw=h(ay(q),av),ax=fu(i);return gh(jB(b,M,h(ay(q),ax),aw,0,au,S,at),aq,ap,aG)}var
+ak=a[3],al=y(function(a){return dY(c,a)},ak),am=a[3],an=g(n,g(e(function(a){return b6(c,a)},am),al)),w=ac(e(function(a){return ar(b,a)},an));if(w){var
+ao=bh(eS(a[2]),c),x=ac(e(function(a){return ar(b,a)},ao));if(x){var
+z=ac(oe(b,aH,q,n,i,c,J,a[3]));if(z){var
+S=z[1],ap=jL(S),aq=x[1],as=a[2],at=function(a){return of(b,as,c,a)},au=w[1],av=nl(i),aw=h(az(q),av),ax=fC(i);return fd(jK(b,M,h(az(q),ax),aw,0,au,S,at),aq,ap,aG)}var
 T=z}else
 var
 T=x;var
@@ -7968,139 +8097,139 @@ A=P;return A}return V}var
 aa=$}else
 var
 aa=B;return aa}function
-D1(a){if(0===a[0])return qR(a[1]);var
-b=a[1],c=eL(b[6]);return g(eL(b[5]),c)}function
-D2(a){if(0===a[0])return qS(a[1]);var
-b=a[1],c=bi(b[4]);return g(bi(b[3]),c)}function
-q9(c){var
-a=y(D1,c),d=a?[0,a[1],a[2]]:y(D2,c);return G(b,bP(d))}function
-D3(a){if(0===a[0])return[0,h8(a[1]),d];var
-b=a[1],c=bP(bi(b[2]));return[0,bP(bi(b[1])),c]}function
-lg(h,b,s,r,q,g,C,B,p){var
-a=k0(h,b,s,r,q,g),t=q9(a[2]),u=e(D3,a[2]),i=kl(t,u,a[2]),D=f(p),E=q7(i,e(DY,a[2])),F=ic(i),G=ic(i),k=ed(an(h),G,F,E,D,p);if(k){var
+Ej(a){if(0===a[0])return q5(a[1]);var
+b=a[1],c=eU(b[6]);return g(eU(b[5]),c)}function
+Ek(a){if(0===a[0])return q6(a[1]);var
+b=a[1],c=bj(b[4]);return g(bj(b[3]),c)}function
+rl(c){var
+a=y(Ej,c),d=a?[0,a[1],a[2]]:y(Ek,c);return G(b,bR(d))}function
+El(a){if(0===a[0])return[0,id(a[1]),d];var
+b=a[1],c=bR(bj(b[2]));return[0,bR(bj(b[1])),c]}function
+lp(h,b,s,r,q,g,C,B,p){var
+a=k9(h,b,s,r,q,g),t=rl(a[2]),u=e(El,a[2]),i=ku(t,u,a[2]),D=f(p),E=rj(i,e(Eg,a[2])),F=ik(i),G=ik(i),k=ek(an(h),G,F,E,D,p);if(k){var
 v=k[1];if(v[2])return 0;var
-w=ia(h,b,s,r,q,g);if(w){var
-H=v[1],I=f(b),J=eg(ec(b),D4,I,0,g),K=id(B),y=e(xm,a[2]),m=eS(j,a[2],y);if(m)var
-z=jL(a[4]),c=cR(j,a[4],z);else
+w=ii(h,b,s,r,q,g);if(w){var
+H=v[1],I=f(b),J=en(ej(b),Em,I,0,g),K=il(B),y=e(xD,a[2]),m=e1(j,a[2],y);if(m)var
+z=jU(a[4]),c=cV(j,a[4],z);else
 var
 c=m;if(c){var
 n=a[5];if(n)var
-A=hy(n[1]),o=l(function(a){return fV(j,a)},A);else
+A=hF(n[1]),o=l(function(a){return f3(j,a)},A);else
 var
 o=1;var
 d=o}else
 var
-d=c;return d?xj(C,K,J,a,t,u,H):d}var
+d=c;return d?xA(C,K,J,a,t,u,H):d}var
 x=w}else
 var
 x=k;return x}function
-lh(x,B,a0,aZ,aY,ac,bB,aX,H){var
+lq(x,B,a0,aZ,aY,ac,bB,aX,H){var
 J=typeof
-x==="number"?x?D5:D6:h$(x[1]),N=e(k,bB),a=k0(x,B,a0,aZ,aY,ac),a1=k$(B,e(k,aX));if(a1[2])return 0;var
-u=a1[1],a2=gb(y(lb,B),aX),a3=a2?ia(x,B,a0,aZ,aY,ac):a2;if(a3)var
+x==="number"?x?En:Eo:ih(x[1]),N=e(k,bB),a=k9(x,B,a0,aZ,aY,ac),a1=li(B,e(k,aX));if(a1[2])return 0;var
+u=a1[1],a2=gj(y(lk,B),aX),a3=a2?ii(x,B,a0,aZ,aY,ac):a2;if(a3)var
 bC=an(x),ad=n(f(N),bC);else
 var
 ad=a3;if(ad){if(typeof
 H!=="number"&&2===H[0]){var
-aj=e(k,H[1]),bG=aw(J,aj),a8=aM(ao(J,aj)),bH=aw(J,N),a9=aM(ao(J,N)),ay=eS(j,a[2],u),az=ay?cR(j,a[4],a9):ay,aA=az?cR(j,a[4],a8):az,a$=aA?pW(j,a[1],a[3],a[5],u,a9,bH,a8,bG):aA;if(a$){var
-bI=an(x);return n(f(aj),bI)}return a$}var
-bD=f(B),bE=fT(x),ae=ld(ec(B),bE,bD,0,ac,H);if(ae){var
-O=ae[1],g=aM(ao(J,N)),m=aw(J,N),ba=0;if(typeof
+ak=e(k,H[1]),bF=ay(J,ak),a8=aN(ao(J,ak)),bH=ay(J,N),a9=aN(ao(J,N)),ax=e1(j,a[2],u),az=ax?cV(j,a[4],a9):ax,aA=az?cV(j,a[4],a8):az,a$=aA?p_(j,a[1],a[3],a[5],u,a9,bH,a8,bF):aA;if(a$){var
+bI=an(x);return n(f(ak),bI)}return a$}var
+bD=f(B),bE=f1(x),ae=lm(ej(B),bE,bD,0,ac,H);if(ae){var
+O=ae[1],g=aN(ao(J,N)),m=ay(J,N),ba=0;if(typeof
 H==="number"&&H){var
-af=I(ec(B));ba=1}if(!ba)var
+af=I(ej(B));ba=1}if(!ba)var
 af=1;if(af){var
-au=eS(j,a[2],u),av=au?hB(j,a,g,m):au;if(av)var
-w=a[5],ax=a[3],K=a[1],bl=a[6],bc=e(function(a){if(0===a[0])var
-e=bj(w,m,g,a),c=bF(a[1],e);else
+au=e1(j,a[2],u),av=au?hI(j,a,g,m):au;if(av)var
+w=a[5],aw=a[3],K=a[1],bl=a[6],bc=e(function(a){if(0===a[0])var
+e=bk(w,m,g,a),c=bG(a[1],e);else
 var
-d=a[1],f=jS(d,bj(w,m,g,a)),h=d[4],i=bj(w,m,g,a),j=M(function(b,a){return[2,b,a]},i,h),c=M(function(b,a){return[3,b,a]},j,f);return[0,j6(K,c,P([5,[0,b,b],ax],cq(d3(w,m,d2(a)),c)))]},u),bd=y(function(a){return j8(w,m,g,a)},u),be=function(a){var
-b=d3(w,m,a);return M(function(b,a){return[2,b,a]},g,b)},bf=0,bg=e(function(f){var
-c=bj(w,m,g,f);if(0===f[0]){var
+d=a[1],f=j1(d,bk(w,m,g,a)),h=d[4],i=bk(w,m,g,a),j=M(function(b,a){return[2,b,a]},i,h),c=M(function(b,a){return[3,b,a]},j,f);return[0,kd(K,c,P([5,[0,b,b],aw],cu(d_(w,m,d9(a)),c)))]},u),bd=y(function(a){return kf(w,m,g,a)},u),be=function(a){var
+b=d_(w,m,a);return M(function(b,a){return[2,b,a]},g,b)},bf=0,bg=e(function(f){var
+c=bk(w,m,g,f);if(0===f[0]){var
 a=f[1];switch(a[0]){case
 0:var
-i=a[4],j=a[3],k=a[2],h=a[1],n=b3(h,k,j,i,c),l=cp(a[5],n),o=P(l,aC(h)),p=dT(h,k,j,c);return[0,[0,j7(K,M(function(b,a){return[2,b,a]},p,o)),l,i]];case
+i=a[4],j=a[3],k=a[2],h=a[1],n=b7(h,k,j,i,c),l=ct(a[5],n),o=P(l,aD(h)),p=d0(h,k,j,c);return[0,[0,ke(K,M(function(b,a){return[2,b,a]},p,o)),l,i]];case
 1:var
-q=bF(a,c),r=[6,v(bF(a,c),q)];return[0,[0,j7(K,bF(a,c)),[0,d,b],r]];default:return 0}}var
-e=f[1],s=e[6],t=dV(e,c),u=jS(e,c),x=e[4],y=M(function(b,a){return[2,b,a]},c,x);return[0,[0,j7(K,M(function(b,a){return[3,b,a]},y,u)),t,s]]},u),bi=e(function(a){return eR(w,m,g,a)},u),bk=[0,e(function(a){return oV(K,ax,w,m,g,a)},u),bi,bg,bf,be,bd,bc],bm=an(a[1]),ag=jN(j,fT(a[1]),bm,bk,bl,O);else
+q=bG(a,c),r=[6,v(bG(a,c),q)];return[0,[0,ke(K,bG(a,c)),[0,d,b],r]];default:return 0}}var
+e=f[1],s=e[6],t=d2(e,c),u=j1(e,c),x=e[4],y=M(function(b,a){return[2,b,a]},c,x);return[0,[0,ke(K,M(function(b,a){return[3,b,a]},y,u)),t,s]]},u),bh=e(function(a){return e0(w,m,g,a)},u),bj=[0,e(function(a){return o9(K,aw,w,m,g,a)},u),bh,bg,bf,be,bd,bc],bm=an(a[1]),ag=jW(j,f1(a[1]),bm,bj,bl,O);else
 var
 ag=av;if(ag)var
 ah=ag;else{if(typeof
 O!=="number"&&0===O[0]){var
-p=O[2],a6=O[1],t=a[1],aS=eS(j,a[2],u),aT=aS?hB(j,a,g,m):aS,ak=0;if(aT){var
-by=a[6],Z=dU(j,fT(t),a6,by),am=0;if(Z){var
+p=O[2],a6=O[1],t=a[1],aS=e1(j,a[2],u),aT=aS?hI(j,a,g,m):aS,al=0;if(aT){var
+by=a[6],Z=d1(j,f1(t),a6,by),am=0;if(Z){var
 G=Z[1][1],ap=0;if(typeof
 G!=="number"&&15===G[0]){var
 _=E(u,G[1]);if(_){var
-o=_[1],$=bj(a[5],m,g,o);if(typeof
+o=_[1],$=bk(a[5],m,g,o);if(typeof
 t==="number")if(0===o[0])if(2===o[1][0]){var
 aq=0;if(p)if(p[2])var
-r=0;else{var
-aO=[0,fJ(p[1]),0];aq=1}else{var
+s=0;else{var
+aO=[0,fR(p[1]),0];aq=1}else{var
 aO=p;aq=1}if(aq)var
-r=aO}else
+s=aO}else
 if(p)var
-r=0;else{var
+s=0;else{var
 aK=function(c){var
 a=[0,[0,[0,b,b],[0,d,b],[0,d,b]],[0,[0,[0,d,b],[0,b,b],[0,d,b]],[0,[0,[0,d,b],[0,d,b],[0,b,b]],0]]];return e(function(b){var
-a=cq(c,b);return[0,a[1],[0,a[2],[0,a[3],0]]]},a)},aL=typeof
+a=cu(c,b);return[0,a[1],[0,a[2],[0,a[3],0]]]},a)},aL=typeof
 t==="number"?1:0;if(aL)if(t)if(0===o[0]){var
 R=o[1],ar=0;switch(R[0]){case
 0:var
 X=R[1];ar=1;break;case
 1:var
-X=aP(R[1],R[2],$);ar=1;break;default:var
-r=0}if(ar)var
-r=[0,[0,[3,[0,d,b],X[2]],[0,X[1],0]],0]}else
+X=aQ(R[1],R[2],$);ar=1;break;default:var
+s=0}if(ar)var
+s=[0,[0,[3,[0,d,b],X[2]],[0,X[1],0]],0]}else
 var
-r=0;else
+s=0;else
 if(0===o[0]){var
 F=o[1];switch(F[0]){case
 0:var
-aN=F[1],Y=dT(aN,F[2],F[3],$),bx=aK(aN),r=[0,[0,Y[1],[0,Y[2],[0,Y[3],0]]],bx];break;case
+aM=F[1],Y=d0(aM,F[2],F[3],$),bx=aK(aM),s=[0,[0,Y[1],[0,Y[2],[0,Y[3],0]]],bx];break;case
 1:var
-r=aK(aP(F[1],F[2],$));break;default:var
-r=0}}else
+s=aK(aQ(F[1],F[2],$));break;default:var
+s=0}}else
 var
-r=0;else
+s=0;else
 var
-r=aL}else{var
+s=aL}else{var
 as=0;if(p)if(p[2])var
-r=0;else{var
-aQ=[0,fJ(p[1]),0];as=1}else{var
-aQ=p;as=1}if(as)var
-r=aQ}else{var
+s=0;else{var
+aP=[0,fR(p[1]),0];as=1}else{var
+aP=p;as=1}if(as)var
+s=aP}else{var
 at=0;if(p)if(p[2])var
-r=0;else{var
-aR=[0,fJ(p[1]),0];at=1}else{var
+s=0;else{var
+aR=[0,fR(p[1]),0];at=1}else{var
 aR=p;at=1}if(at)var
-r=aR}var
-aW=G[3],aa=a[5],ab=a[3],bz=G[4],bA=G[2],S=al(function(l){var
-T=oV(t,ab,aa,m,g,o),D=bh(l,l),E=[4,[4,bA,[6,bh(T,T)]],D],z=d3(aa,m,d2(o)),h=bj(aa,m,g,o),ax=typeof
-t==="number"?[0,[0,d,b],[0,d,b],[0,d,b]]:kA(t[1],l),r=P([5,[0,b,b],ab],ax),S=0===o[0]?b4(o[1],h):jT(o[1],h),ay=v(r,r),az=[4,v(S,z),ay],aA=v(z,r),aD=[3,[4,v(S,r),aA],az],aE=cq(r,z);function
-p(a){return s(a,l,[0,d,b])}if(typeof
+s=aR}var
+aW=G[3],aa=a[5],ab=a[3],bz=G[4],bA=G[2],S=aj(function(l){var
+T=o9(t,ab,aa,m,g,o),D=bi(l,l),E=[4,[4,bA,[6,bi(T,T)]],D],z=d_(aa,m,d9(o)),h=bk(aa,m,g,o),ax=typeof
+t==="number"?[0,[0,d,b],[0,d,b],[0,d,b]]:kJ(t[1],l),s=P([5,[0,b,b],ab],ax),S=0===o[0]?b8(o[1],h):j2(o[1],h),ay=v(s,s),az=[4,v(S,z),ay],aA=v(z,s),aB=[3,[4,v(S,s),aA],az],aE=cu(s,z);function
+p(a){return r(a,l,[0,d,b])}if(typeof
 t==="number")if(t)var
-ag=p(x5),B=[0,p(0),ag,[0,d,b]];else
+ag=p(yk),B=[0,p(0),ag,[0,d,b]];else
 var
-ah=p(x6),ai=p(x7),B=[0,p(0),ai,ah];else
+ah=p(yl),ai=p(ym),B=[0,p(0),ai,ah];else
 var
-B=kz(t[1],l);var
+B=kI(t[1],l);var
 a=M(function(b,a){return[2,b,a]},B,aE);if(0===o[0]){var
 k=o[1];switch(k[0]){case
 0:var
-L=k[3],N=k[2],x=k[1],aj=b3(x,N,L,k[4],h),u=cp(k[5],aj),O=v(dT(x,N,L,h),a),Q=v(aC(x),a),w=[2,[5,[3,v(a,a),[4,Q,Q]],u],[5,[4,O,O],[4,u,[4,u,u]]]];break;case
+L=k[3],N=k[2],x=k[1],aj=b7(x,N,L,k[4],h),u=ct(k[5],aj),O=v(d0(x,N,L,h),a),Q=v(aD(x),a),w=[2,[5,[3,v(a,a),[4,Q,Q]],u],[5,[4,O,O],[4,u,[4,u,u]]]];break;case
 1:var
-q=aP(k[1],k[2],h),ak=[6,v(q,q)],al=v(q,q),R=v(q,a),w=[5,[3,v(a,a),[5,[4,R,R],al]],ak];break;default:var
+q=aQ(k[1],k[2],h),ak=[6,v(q,q)],al=v(q,q),R=v(q,a),w=[5,[3,v(a,a),[5,[4,R,R],al]],ak];break;default:var
 w=[0,d,b]}}else
 var
-e=o[1],y=v(jT(e,h),a),am=dV(e,h),ao=[4,e[5],am],ap=fN(e,h),aq=[4,[4,e[5],[4,y,y]],ap],ar=v(eK(e),a),as=[4,jR(e,h),ar],at=v(fK(e),a),au=[3,[4,jQ(e,h),at],as],av=[4,e[5],y],aw=[4,[4,[0,c(2,b),b],av],au],w=[5,[2,[3,v(a,a),aw],aq],ao];var
-F=[4,[4,aW,aW],[2,w,aD]],G=[4,bz,D],aF=an(t),U=n(f(l),aF),V=U?i(j,1,D):U,W=V?typeof
+e=o[1],y=v(j2(e,h),a),am=d2(e,h),ao=[4,e[5],am],ap=fV(e,h),aq=[4,[4,e[5],[4,y,y]],ap],ar=v(eT(e),a),as=[4,j0(e,h),ar],at=v(fS(e),a),au=[3,[4,jZ(e,h),at],as],av=[4,e[5],y],aw=[4,[4,[0,c(2,b),b],av],au],w=[5,[2,[3,v(a,a),aw],aq],ao];var
+F=[4,[4,aW,aW],[2,w,aB]],G=[4,bz,D],aF=an(t),U=n(f(l),aF),V=U?i(j,1,D):U,W=V?typeof
 t==="number"?1:i(j,1,ab):V;if(W){if(0===o[0]){var
 X=i(j,1,[3,[2,E,F],G]);return X?X:i(j,1,[3,[3,E,F],G])}var
-H=aB(j,E);if(H){var
-Y=H[1],I=aB(j,F);if(I){var
-Z=I[1],J=aB(j,G);if(J){var
-K=i$(j,J[1]);if(K){var
-_=K[1],$=bO([0,C(A(Y,Z),_)]);if(!$)return bO([0,C(C(Y,Z),_)]);var
+H=aC(j,E);if(H){var
+Y=H[1],I=aC(j,F);if(I){var
+Z=I[1],J=aC(j,G);if(J){var
+K=jg(j,J[1]);if(K){var
+_=K[1],$=bQ([0,C(A(Y,Z),_)]);if(!$)return bQ([0,C(C(Y,Z),_)]);var
 ac=$}else
 var
 ac=K;var
@@ -8112,51 +8241,51 @@ var
 ae=I;var
 af=ae}else
 var
-af=H;return af}return W},r);am=1;ap=1}else{var
+af=H;return af}return W},s);am=1;ap=1}else{var
 S=_;am=1;ap=1}}if(!ap)var
 aU=0}else
 var
 aU=Z;if(!am){var
-aV=aU;ak=1}}else{var
-aV=aT;ak=1}if(ak)var
+aV=aU;al=1}}else{var
+aV=aT;al=1}if(al)var
 S=aV;if(S)var
 a7=S;else{if(p){if(p[2])return 0;var
-ai=p[1],aD=a[1],Q=a[5],aE=eS(j,a[2],u),aF=aE?hB(j,a,g,m):aE;if(aF){var
-bo=a[6],T=dU(j,fT(aD),a6,bo);if(T){var
+ai=p[1],aB=a[1],Q=a[5],aE=e1(j,a[2],u),aF=aE?hI(j,a,g,m):aE;if(aF){var
+bo=a[6],T=d1(j,f1(aB),a6,bo);if(T){var
 L=T[1][1];if(typeof
 L!=="number"&&16===L[0]){var
-z=L[1],bp=a[2],bq=e(function(a){return eR(Q,m,g,p9(a))},bp),aI=h(cr(cU),z);if(aI)var
-bn=h(gF(c(2,b)),cU),D=[0,bs(d,aI[1][1]),bn];else
+z=L[1],bp=a[2],bq=e(function(a){return e0(Q,m,g,ql(a))},bp),aI=h(cv(cY),z);if(aI)var
+bn=h(gN(c(2,b)),cY),D=[0,bv(d,aI[1][1]),bn];else
 var
 D=[0,d,b];var
 aJ=i(j,0,z);if(aJ)var
 br=a[2],U=l(function(a){var
-b=p9(a);if(0===b[0])return 1;var
-c=b[1],d=[1,c],e=cs(j,z),f=e?oW(j,a,d):e;return f?i(j,1,jP(c,bj(Q,m,g,d))):f},br);else
+b=ql(a);if(0===b[0])return 1;var
+c=b[1],d=[1,c],e=cw(j,z),f=e?o_(j,a,d):e;return f?i(j,1,jY(c,bk(Q,m,g,d))):f},br);else
 var
 U=aJ;if(U)var
-bt=f(a[2]),W=n(f(ai),bt);else
+bs=f(a[2]),W=n(f(ai),bs);else
 var
 W=U;if(W){var
-bu=V(ai,bq),bv=V(V(u,e(function(o){var
+bt=V(ai,bq),bu=V(V(u,e(function(o){var
 a=o[2],f=o[1];if(typeof
 a!=="number"&&1===a[0]){var
-g=a[2],k=a[1],p=c(2,c(2,c(2,q(c(2,c(2,b)))))),e=hS(z,a_(D,dH([0,b,b],[0,b,h(gF(c(2,b)),p)])),f,[1,k,g]);if(typeof
+g=a[2],k=a[1],p=c(2,c(2,c(2,q(c(2,c(2,b)))))),e=hZ(z,a_(D,dM([0,b,b],[0,b,h(gN(c(2,b)),p)])),f,[1,k,g]);if(typeof
 e!=="number"&&1===e[0]){var
-d=d7([5,e[2],[2,[0,b,b],e[1]]]),r=[4,g,dX(d)],l=[2,[4,k,dW(d)],r],s=[4,g,dW(d)],m=[3,[4,k,dX(d)],s],n=[4,bb(D),[2,[0,b,b],l]];if(i(j,1,[2,[0,b,b],l])&&i(j,0,[3,n,m])&&i(j,0,[2,n,m])){var
-t=dX(d);return[1,dW(d),t]}return hS(z,D,f,a)}return hS(z,D,f,a)}return hS(z,D,f,a)},bu)),ai),bw=y(function(t){var
-l=t[1],a=l[2],f=l[1],h=t[2],i=d3(Q,m,d2(f)),e=bj(Q,m,g,f);if(0===f[0]){var
+d=ec([5,e[2],[2,[0,b,b],e[1]]]),r=[4,g,d4(d)],l=[2,[4,k,d3(d)],r],s=[4,g,d3(d)],m=[3,[4,k,d4(d)],s],n=[4,bb(D),[2,[0,b,b],l]];if(i(j,1,[2,[0,b,b],l])&&i(j,0,[3,n,m])&&i(j,0,[2,n,m])){var
+t=d4(d);return[1,d3(d),t]}return hZ(z,D,f,a)}return hZ(z,D,f,a)}return hZ(z,D,f,a)},bt)),ai),bw=y(function(t){var
+l=t[1],a=l[2],f=l[1],h=t[2],i=d_(Q,m,d9(f)),e=bk(Q,m,g,f);if(0===f[0]){var
 d=f[1];switch(d[0]){case
 0:var
 n=d[4],o=d[3],j=d[2],k=d[1];if(typeof
 a!=="number"&&0===a[0]){var
-p=a[1],u=0,w=P(p,aC(k)),x=M(function(b,a){return[3,b,a]},g,j),y=M(function(b,a){return[3,b,a]},x,w),z=aP(j,o,e),A=[3,v(aC(k),z),p],B=b3(k,j,o,n,e);return[0,[0,d7([5,[0,h,b],[2,cp(d[5],B),A]]),n,y,i],u]}return 0;case
+p=a[1],u=0,w=P(p,aD(k)),x=M(function(b,a){return[3,b,a]},g,j),y=M(function(b,a){return[3,b,a]},x,w),z=aQ(j,o,e),A=[3,v(aD(k),z),p],B=b7(k,j,o,n,e);return[0,[0,ec([5,[0,h,b],[2,ct(d[5],B),A]]),n,y,i],u]}return 0;case
 1:if(typeof
 a!=="number"&&0===a[0]){var
-q=a[1],C=0,D=d[1],E=M(function(b,a){return[3,b,a]},g,D);return[0,[0,d7([5,[0,h,b],[2,q,cS(d,e)]]),q,E,i],C]}return 0;default:return 0}}var
+q=a[1],C=0,D=d[1],E=M(function(b,a){return[3,b,a]},g,D);return[0,[0,ec([5,[0,h,b],[2,q,cW(d,e)]]),q,E,i],C]}return 0;default:return 0}}var
 c=f[1];if(typeof
 a!=="number"&&1===a[0]){var
-r=a[2],s=a[1],F=[4,r,fL(c,e)],G=[3,[4,s,fM(c,e)],F],I=P(r,fK(c)),H=0,J=P(s,eK(c)),K=M(function(b,a){return[2,b,a]},J,I),L=P(c[5],K),N=c[3],O=M(function(b,a){return[2,b,a]},N,L),R=M(function(b,a){return[3,b,a]},g,O),S=c[6],T=[2,dV(c,e),G];return[0,[0,d7([5,[0,h,b],[4,c[5],T]]),S,R,i],H]}return 0},bv);return p7(j,aD,L[2],L[3],bw)}return W}var
+r=a[2],s=a[1],F=[4,r,fT(c,e)],G=[3,[4,s,fU(c,e)],F],I=P(r,fS(c)),H=0,J=P(s,eT(c)),K=M(function(b,a){return[2,b,a]},J,I),L=P(c[5],K),N=c[3],O=M(function(b,a){return[2,b,a]},N,L),R=M(function(b,a){return[3,b,a]},g,O),S=c[6],T=[2,d2(c,e),G];return[0,[0,ec([5,[0,h,b],[4,c[5],T]]),S,R,i],H]}return 0},bu);return qj(j,aB,L[2],L[3],bw)}return W}var
 aG=0}else
 var
 aG=T;var
@@ -8173,74 +8302,74 @@ a4=ae;var
 a5=a4}else
 var
 a5=ad;return a5}function
-cY(a){if(a){var
-b=cO(k(a[1]));if(b){var
-c=cY(a[2]);if(c)var
-f=c[1],d=[0,[0,dI(b[1]),f]];else
+c2(a){if(a){var
+b=cR(k(a[1]));if(b){var
+c=c2(a[2]);if(c)var
+f=c[1],d=[0,[0,dN(b[1]),f]];else
 var
 d=c;var
 e=d}else
 var
-e=b;return e}return D7}function
-ie(g,k,j,a,i){var
+e=b;return e}return Ep}function
+im(g,k,j,a,i){var
 l=f(g),h=n(f(a),l);if(h){var
 m=V(V(g,V(k,j)),a);return e(function(f){var
-g=f[1],h=g[2],j=dH(h[2],h[1]),a=aQ(g[1],i),k=F(d,a)?mx(cf(c(2,b),a)):[0,b,et(cf(c(2,b),R(a)))],l=dI(gP(a_([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return dI(a_(mx(a),l))},m)},m)}return h}function
-li(u,aU,aq,ap,t,ao,a){var
-c=h1(u,aU,aq,ap),ar=gb(y(qY,u),ao),g=ar?ib(u,aq,ap,c):ar;if(t){var
+g=f[1],h=g[2],j=dM(h[2],h[1]),a=aR(g[1],i),k=F(d,a)?mG(cj(c(2,b),a)):[0,b,eA(cj(c(2,b),R(a)))],l=dN(gX(a_([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return dN(a_(mG(a),l))},m)},m)}return h}function
+lr(u,aU,aq,ap,t,ao,a){var
+c=h8(u,aU,aq,ap),ar=gj(y(ra,u),ao),g=ar?ij(u,aq,ap,c):ar;if(t){var
 v=t[2];if(v){var
 w=v[2];if(w){if(w[2])return 0;var
-h=w[1],i=v[1],m=t[1],as=qW(u,e(k,ao));if(as[2])return 0;var
+h=w[1],i=v[1],m=t[1],as=q_(u,e(k,ao));if(as[2])return 0;var
 f=as[1];if(typeof
 a!=="number")switch(a[0]){case
 2:var
 J=a[1];if(J){var
 K=J[2];if(K){var
 L=K[2];if(L){if(L[2]){var
-M=f$(c,a);if(M){var
+M=gh(c,a);if(M){var
 aX=k(h),aY=k(i),az=[0,k(m),aY,aX];if(g){var
-aA=fH(j,c,f,az,M[1]);if(aA)var
+aA=fP(j,c,f,az,M[1]);if(aA)var
 N=aA;else{if(typeof
 a!=="number"&&0===a[0]){var
-z=a[2];return z?z[2]?0:f1(j,c,f,az,a[1],z[1]):z}var
+z=a[2];return z?z[2]?0:f9(j,c,f,az,a[1],z[1]):z}var
 N=0}}else
 var
 N=g;var
 aB=N}else
 var
 aB=M;return aB}if(g){var
-aZ=k(L[1]),a0=k(K[1]),aC=[0,k(J[1]),a0,aZ],a2=k(h),a3=k(i),aD=[0,k(m),a3,a2],X=fF(j,c,f,aD),Y=X?cR(j,c[2],aC):X;if(Y){var
-aR=0,aS=0;return pW(j,0,[0,b,b],0,e(function(a){return[0,a]},f),aD,aS,aC,aR)}return Y}return g}var
-O=f$(c,a);if(O){var
+aZ=k(L[1]),a0=k(K[1]),aC=[0,k(J[1]),a0,aZ],a1=k(h),a3=k(i),aD=[0,k(m),a3,a1],X=fN(j,c,f,aD),Y=X?cV(j,c[2],aC):X;if(Y){var
+aR=0,aS=0;return p_(j,0,[0,b,b],0,e(function(a){return[0,a]},f),aD,aS,aC,aR)}return Y}return g}var
+O=gh(c,a);if(O){var
 a4=k(h),a5=k(i),aE=[0,k(m),a5,a4];if(g){var
-aF=fH(j,c,f,aE,O[1]);if(aF)var
+aF=fP(j,c,f,aE,O[1]);if(aF)var
 P=aF;else{if(typeof
 a!=="number"&&0===a[0]){var
-A=a[2];return A?A[2]?0:f1(j,c,f,aE,a[1],A[1]):A}var
+A=a[2];return A?A[2]?0:f9(j,c,f,aE,a[1],A[1]):A}var
 P=0}}else
 var
 P=g;var
 aG=P}else
 var
 aG=O;return aG}var
-Q=f$(c,a);if(Q){var
+Q=gh(c,a);if(Q){var
 a6=k(h),a7=k(i),aH=[0,k(m),a7,a6];if(g){var
-aI=fH(j,c,f,aH,Q[1]);if(aI)var
+aI=fP(j,c,f,aH,Q[1]);if(aI)var
 R=aI;else{if(typeof
 a!=="number"&&0===a[0]){var
-B=a[2];return B?B[2]?0:f1(j,c,f,aH,a[1],B[1]):B}var
+B=a[2];return B?B[2]?0:f9(j,c,f,aH,a[1],B[1]):B}var
 R=0}}else
 var
 R=g;var
 aJ=R}else
 var
 aJ=Q;return aJ}var
-S=f$(c,a);if(S){var
+S=gh(c,a);if(S){var
 a8=k(h),a9=k(i),aK=[0,k(m),a9,a8];if(g){var
-aL=fH(j,c,f,aK,S[1]);if(aL)var
+aL=fP(j,c,f,aK,S[1]);if(aL)var
 T=aL;else{if(typeof
 a!=="number"&&0===a[0]){var
-C=a[2];return C?C[2]?0:f1(j,c,f,aK,a[1],C[1]):C}var
+C=a[2];return C?C[2]?0:f9(j,c,f,aK,a[1],C[1]):C}var
 T=0}}else
 var
 T=g;var
@@ -8251,33 +8380,33 @@ aM=S;return aM;case
 U=E(c[3],a[1]);if(U){var
 aN=U[1];if(typeof
 aN==="number"&&aN){var
-V=cY(a[2]);if(V){var
-n=V[1],W=cY(a[3]);if(W){var
+V=c2(a[2]);if(V){var
+n=V[1],W=c2(a[3]);if(W){var
 o=W[1];if(g){var
-a_=ie([0,d,[0,d,[0,d,0]]],n,o,a[4],a[5]),a$=k(h),ba=k(i),D=[0,k(m),ba,a$];if(n){var
+a_=im([0,d,[0,d,[0,d,0]]],n,o,a[4],a[5]),a$=k(h),ba=k(i),D=[0,k(m),ba,a$];if(n){var
 p=n[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;if(o){var
 r=o[2];if(r){var
 s=r[2];if(s){if(s[2])return 0;var
-Z=s[1],_=r[1],$=o[1],aa=q[1],ab=p[1],ac=n[1],ad=[0,[1,0,ac,$],[1,xH,ab,_],[1,xG,aa,Z]],ae=fF(j,c,f,D);if(ae)var
-aT=c[3],F=al(function(a){if(typeof
+Z=s[1],_=r[1],$=o[1],aa=q[1],ab=p[1],ac=n[1],ad=[0,[1,0,ac,$],[1,xY,ab,_],[1,xX,aa,Z]],ae=fN(j,c,f,D);if(ae)var
+aT=c[3],F=aj(function(a){if(typeof
 a==="number"&&a)return 1;return 0},aT);else
 var
 F=ae;var
-af=F?hO(n,o):F,ag=af?kE(j,c[2],[0,[0,ac,ab],aa],[0,[0,$,_],Z]):af,ah=ag?eV(j,n,o,a1(D)):ag,ai=ah?l(function(a){var
-b=eU(kF(a)),c=b?eU([0,cS(a,D),0]):b;if(c){var
-d=jJ(a,ad);if(d)return kD(j,xI,d[1]);var
+af=F?hV(n,o):F,ag=af?kN(j,c[2],[0,[0,ac,ab],aa],[0,[0,$,_],Z]):af,ah=ag?e4(j,n,o,a2(D)):ag,ai=ah?l(function(a){var
+b=e3(kO(a)),c=b?e3([0,cW(a,D),0]):b;if(c){var
+d=jS(a,ad);if(d)return kM(j,xZ,d[1]);var
 e=1}else
 var
-e=c;return e},f):ah;if(ai)return hN(j,e(function(a){var
-b=cS(a,D);return[3,cS(a,ad),b]},f),a_);var
-aj=ai}else
+e=c;return e},f):ah;if(ai)return hU(j,e(function(a){var
+b=cW(a,D);return[3,cW(a,ad),b]},f),a_);var
+ak=ai}else
 var
-aj=s;var
-ak=aj}else
+ak=s;var
+al=ak}else
 var
-ak=r;var
-G=ak}else
+al=r;var
+G=al}else
 var
 G=o}else
 var
@@ -8297,12 +8426,12 @@ aP=V;return aP}var
 aQ=0}else
 var
 aQ=U;return aQ}var
-H=f$(c,a);if(H){var
+H=gh(c,a);if(H){var
 aV=k(h),aW=k(i),at=[0,k(m),aW,aV];if(g){var
-au=fH(j,c,f,at,H[1]);if(au)var
+au=fP(j,c,f,at,H[1]);if(au)var
 I=au;else{if(typeof
 a!=="number"&&0===a[0]){var
-x=a[2];return x?x[2]?0:f1(j,c,f,at,a[1],x[1]):x}var
+x=a[2];return x?x[2]?0:f9(j,c,f,at,a[1],x[1]):x}var
 I=0}}else
 var
 I=g;var
@@ -8318,579 +8447,579 @@ ax=v;var
 ay=ax}else
 var
 ay=t;return ay}function
-q_(n,m,b,l,C,B){var
+rm(n,m,b,l,C,B){var
 f=C,d=B;for(;;){if(0===d[0]){var
-h=d[1],i=E(f,h),o=i?aE(i[1][2],D_):i;if(o)var
-D=d[2],j=q_(n,m,b,l,k8(0,h,f),D);else
+h=d[1],i=E(f,h),o=i?aF(i[1][2],Es):i;if(o)var
+D=d[2],j=rm(n,m,b,l,lf(0,h,f),D);else
 var
 j=o;if(j){var
-F=d[3],f=k8(1,h,f),d=F;continue}return j}var
-c=d[1],a=qP(0,n,f),p=e(function(b){function
-d(b){return qQ(a,b)}function
-c(a){return k6(d,a)}switch(b[0]){case
+F=d[3],f=lf(1,h,f),d=F;continue}return j}var
+c=d[1],a=q3(0,n,f),p=e(function(b){function
+d(b){return q4(a,b)}function
+c(a){return ld(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=qQ(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=q4(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
-i=z(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},m);if(0===b[0])var
-t=b[2],u=k6(function(b){return az(a,b)},t),v=b[1],k=[0,k6(function(b){return az(a,b)},v),u];else
+i=x(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},m);if(0===b[0])var
+t=b[2],u=ld(function(b){return aA(a,b)},t),v=b[1],k=[0,ld(function(b){return aA(a,b)},v),u];else
 var
-w=az(a,b[5]),x=az(a,b[4]),y=az(a,b[3]),A=az(a,b[2]),k=[1,az(a,b[1]),A,y,x,w];var
+w=aA(a,b[5]),y=aA(a,b[4]),z=aA(a,b[3]),A=aA(a,b[2]),k=[1,aA(a,b[1]),A,z,y,w];var
 q=e(function(g){var
 c=g[4];if(typeof
 c==="number")var
 d=0;else
 switch(c[0]){case
 0:var
-d=[0,az(a,c[1])];break;case
+d=[0,aA(a,c[1])];break;case
 1:var
-d=[1,az(a,c[1])];break;default:var
-m=az(a,c[2]),d=[2,az(a,c[1]),m]}var
+d=[1,aA(a,c[1])];break;default:var
+m=aA(a,c[2]),d=[2,aA(a,c[1]),m]}var
 h=g[3];if(h){var
 b=h[1];switch(b[0]){case
 0:var
-f=[0,[0,az(a,b[1])]];break;case
+f=[0,[0,aA(a,b[1])]];break;case
 1:var
-j=b[1],f=[0,[1,e(function(b){return az(a,b)},j)]];break;case
+j=b[1],f=[0,[1,e(function(b){return aA(a,b)},j)]];break;case
 2:var
-k=az(a,b[2]),f=[0,[2,az(a,b[1]),k]];break;default:var
-l=az(a,b[2]),f=[0,[3,az(a,b[1]),l]]}var
+k=aA(a,b[2]),f=[0,[2,aA(a,b[1]),k]];break;default:var
+l=aA(a,b[2]),f=[0,[3,aA(a,b[1]),l]]}var
 i=f}else
 var
 i=h;return[0,g[1],g[2],i,d]},l);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return lf(1,p,k,0,q,c[1],c[2],c[3]);default:var
+1:return lo(1,p,k,0,q,c[1],c[2],c[3]);default:var
 g=c[4],s=0;if(typeof
 g!=="number"&&2===g[0]){var
-J=g[1],r=[2,e(function(b){return az(a,b)},J)];s=1}if(!s)var
+J=g[1],r=[2,e(function(b){return aA(a,b)},J)];s=1}if(!s)var
 r=g;var
-G=c[3],H=e(function(b){return az(a,b)},G),I=c[2];return li(p,k,0,q,e(function(b){return az(a,b)},I),H,r)}}}function
-q$(h,g){var
-a=cO(k(h));if(a){var
-c=a[1],e=bn([0,d,b],c);if(e)return bn(c,g);var
+G=c[3],H=e(function(b){return aA(a,b)},G),I=c[2];return lr(p,k,0,q,e(function(b){return aA(a,b)},I),H,r)}}}function
+rn(h,g){var
+a=cR(k(h));if(a){var
+c=a[1],e=bo([0,d,b],c);if(e)return bo(c,g);var
 f=e}else
 var
 f=a;return f}function
-gc(b,a){if(a){var
-c=a[1],d=s(c,b,0);if(d)var
-g=ao(c,b),e=[0,[0,f(a6(function(a){return a},g))]];else
+gk(b,a){if(a){var
+c=a[1],d=r(c,b,0);if(d)var
+g=ao(c,b),e=[0,[0,f(aZ(function(a){return a},g))]];else
 var
-e=d;return e}return Ea}function
-ra(b,c,a){return y(function(a){if(b$(a)){var
-d=h2(0,b,0,a);return ac(1,mt(e(function(a){return fI(j,Eb,a)},d)))}return ac(0,f(qC(b,c,a)))},a)}function
-rb(c,a){return e(function(a){var
+e=d;return e}return Eu}function
+ro(b,c,a){return y(function(a){if(cd(a)){var
+d=h9(0,b,0,a);return ab(1,mC(e(function(a){return fQ(j,Ev,a)},d)))}return ab(0,f(qQ(b,c,a)))},a)}function
+rp(c,a){return e(function(a){var
 b=a[4],d=a[3],e=a[2],f=a[1];return[0,y(function(b){var
-a=gc(c,b[1]),d=a?[0,[0,a[1],b[2]],0]:a;return d},f),e,d,b]},a)}function
-rc(b,a){if(typeof
+a=gk(c,b[1]),d=a?[0,[0,a[1],b[2]],0]:a;return d},f),e,d,b]},a)}function
+rq(b,a){if(typeof
 a!=="number")switch(a[0]){case
 0:var
-c=a[2],d=gc(b,a[1]);return z(function(a){return[0,a,c]},d);case
+c=a[2],d=gk(b,a[1]);return x(function(a){return[0,a,c]},d);case
 1:var
-e=a[2],f=gc(b,a[1]);return z(function(a){return[1,a,e]},f);case
+e=a[2],f=gk(b,a[1]);return x(function(a){return[1,a,e]},f);case
 3:var
-g=a[5],h=a[4],i=a[3],j=a[2],k=gc(b,a[1]);return z(function(a){return[3,a,j,i,h,g]},k)}return[0,a]}function
-Eh(w){var
-gO=hZ(w[3]),gP=gO?hZ(w[4]):gO;if(gP){var
+g=a[5],h=a[4],i=a[3],j=a[2],k=gk(b,a[1]);return x(function(a){return[3,a,j,i,h,g]},k)}return[0,a]}function
+EB(w){var
+gO=h6(w[3]),gP=gO?h6(w[4]):gO;if(gP){var
 ah=w[1];switch(ah[0]){case
 3:var
-gV=l(f8,ah[1]);if(gV)var
-lR=ah[2],dn=l(function(a){return f8(a[1])},lR);else
+gV=l(ge,ah[1]);if(gV)var
+lR=ah[2],dl=l(function(a){return ge(a[1])},lR);else
 var
-dn=gV;if(dn)var
-lS=ah[3],dp=l(function(a){var
-b=f8(a[1]),c=b?kW(a[2]):b;return c?f9(a[2]):c},lS);else
+dl=gV;if(dl)var
+lS=ah[3],dm=l(function(a){var
+b=ge(a[1]),c=b?k5(a[2]):b;return c?gf(a[2]):c},lS);else
 var
-dp=dn;if(dp)var
-lT=ah[4],bS=l(function(a){var
+dm=dl;if(dm)var
+lT=ah[4],bQ=l(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return l(function(a){var
-b=kW(a);return b?f9(a):b},b)},lT);else
+b=k5(a);return b?gf(a):b},b)},lT);else
 var
-bS=dp;break;case
+bQ=dm;break;case
 7:var
 lU=ah[1],gW=l(function(a){var
-b=f8(a[1]);return b?f_(0,[0,a[2][1],[0,a[2][2],0]]):b},lU),bS=gW?f_(0,[0,ah[5],[0,ah[6],0]]):gW;break;default:var
-bS=1}var
-dl=bS}else
+b=ge(a[1]);return b?gg(0,[0,a[2][1],[0,a[2][2],0]]):b},lU),bQ=gW?gg(0,[0,ah[5],[0,ah[6],0]]):gW;break;default:var
+bQ=1}var
+dj=bQ}else
 var
-dl=gP;var
-ep=0;if(dl){var
-gQ=w[1],dm=7===gQ[0]?e(aA,gQ[1]):0,gR=function(c,b){var
-a=qz(c);return a?l(function(a){var
-e=a[1],b=l(function(a){return kV(a[2])},e);if(b){var
-c=a[3];if(c)return f_(dm,qy(c[1]));var
+dj=gP;var
+ep=0;if(dj){var
+gQ=w[1],dk=7===gQ[0]?e(at,gQ[1]):0,gR=function(c,b){var
+a=qN(c);return a?l(function(a){var
+e=a[1],b=l(function(a){return k4(a[2])},e);if(b){var
+c=a[3];if(c)return gg(dk,qM(c[1]));var
 d=1}else
 var
 d=b;return d},b):a},gS=function(e,d,c,b){var
-a=qz(e);return a?f_(dm,g(d,g(c,qy(b)))):a},o=w[1];switch(o[0]){case
+a=qN(e);return a?gg(dk,g(d,g(c,qM(b)))):a},o=w[1];switch(o[0]){case
 0:var
-lq=y(d$,o[4]),lr=g(y(qw,o[3]),lq),ls=g(qu(o[2]),lr),ai=g(y(kX,o[1]),ls);break;case
+lf=y(eg,o[4]),lj=g(y(qK,o[3]),lf),ls=g(qI(o[2]),lj),ai=g(y(k6,o[1]),ls);break;case
 1:var
-dg=o[5],dh=o[3],lt=y(d$,o[6]),lu=dg?qv(dg[1]):dg,lv=g(lu,lt),lw=g(qt(o[4]),lv),lx=dh?[0,dh[1],0]:dh,ly=g(lx,lw),ai=g(y(CF,o[2]),ly);break;case
+de=o[5],dh=o[3],lt=y(eg,o[6]),lu=de?qJ(de[1]):de,lv=g(lu,lt),lw=g(qH(o[4]),lv),lx=dh?[0,dh[1],0]:dh,ly=g(lx,lw),ai=g(y(CW,o[2]),ly);break;case
 2:var
-lz=y(d$,o[7]),lA=g(y(qw,o[6]),lz),lB=g(qv(o[5]),lA),lC=g(qt(o[4]),lB),lD=[0,o[3],lC],lE=o[2],ai=g(y(function(a){return y(e1,g(a[1],a[2]))},lE),lD);break;case
+lz=y(eg,o[7]),lA=g(y(qK,o[6]),lz),lB=g(qJ(o[5]),lA),lC=g(qH(o[4]),lB),lD=[0,o[3],lC],lE=o[2],ai=g(y(function(a){return y(e_,g(a[1],a[2]))},lE),lD);break;case
 3:var
-lF=y(d$,o[7]),lG=g(o[6],lF),lH=g(o[5],lG),lI=o[2],ai=g(y(function(a){return e1(a[2])},lI),lH);break;case
+lF=y(eg,o[7]),lG=g(o[6],lF),lH=g(o[5],lG),lI=o[2],ai=g(y(function(a){return e_(a[2])},lI),lH);break;case
 4:var
-lJ=y(d$,o[3]),ai=[0,o[1],[0,o[2],lJ]];break;case
+lJ=y(eg,o[3]),ai=[0,o[1],[0,o[2],lJ]];break;case
 5:var
-lK=y(d$,o[4]),lL=g(b9(o[3]),lK),lM=g(b9(o[2]),lL),lN=g(y(kX,o[1]),lM),ai=[0,o[5],lN];break;case
+lK=y(eg,o[4]),lL=g(cb(o[3]),lK),lM=g(cb(o[2]),lL),lN=g(y(k6,o[1]),lM),ai=[0,o[5],lN];break;case
 6:var
-dj=o[1],ai=dj?e1(dj[1]):dj;break;default:var
-lO=y(d$,o[4]),lP=g(qu(o[3]),lO),ai=g(y(kX,o[2]),lP)}var
-gT=f_(dm,ai);if(gT){var
-aj=w[2];switch(aj[0]){case
+di=o[1],ai=di?e_(di[1]):di;break;default:var
+lO=y(eg,o[4]),lP=g(qI(o[3]),lO),ai=g(y(k6,o[2]),lP)}var
+gT=gg(dk,ai);if(gT){var
+ak=w[2];switch(ak[0]){case
 0:var
-bs=gR(aj[1],aj[3]);break;case
+br=gR(ak[1],ak[3]);break;case
 1:var
-bs=gS(aj[1],aj[2],aj[3],aj[4]);break;default:var
-lQ=aj[1],bs=l(function(a){if(typeof
+br=gS(ak[1],ak[2],ak[3],ak[4]);break;default:var
+lQ=ak[1],br=l(function(a){if(typeof
 a!=="number")switch(a[0]){case
 1:return gR(a[1],a[3]);case
 2:return gS(a[1],a[2],a[3],a[4])}return 1},lQ)}}else{var
 gU=gT;ep=1}}else{var
-gU=dl;ep=1}if(ep)var
-bs=gU;if(bs){var
+gU=dj;ep=1}if(ep)var
+br=gU;if(br){var
 a=w[1];switch(a[0]){case
 0:var
-Q=a[4],am=a[3],ap=a[2],S=a[1],aK=w[2];switch(aK[0]){case
+Q=a[4],am=a[3],ap=a[2],S=a[1],aI=w[2];switch(aI[0]){case
 0:var
-dI=aK[3],ht=aK[2],dJ=aK[1],g8=ra(f(S),am,Q),l2=a6(function(a){return I(b$(a))},Q);if(al(b$,Q)){var
-g9=lf(0,S,ap,am,l2,dJ,ht,rb(e(I,g8),dI));if(g9){var
-l3=rb(g8,dI),l4=a6(b$,Q),l5=k2(ap);return lg(0,e(k1,S),0,l5,0,l4,dJ,0,l3)}return g9}return lf(0,S,ap,am,Q,dJ,ht,dI);case
+dH=aI[3],hs=aI[2],dI=aI[1],g8=ro(f(S),am,Q),l2=aZ(function(a){return I(cd(a))},Q);if(aj(cd,Q)){var
+g9=lo(0,S,ap,am,l2,dI,hs,rp(e(I,g8),dH));if(g9){var
+l3=rp(g8,dH),l4=aZ(cd,Q),l5=k$(ap);return lp(0,e(k_,S),0,l5,0,l4,dI,0,l3)}return g9}return lo(0,S,ap,am,Q,dI,hs,dH);case
 1:var
-dK=aK[4],dM=aK[3],dN=aK[2],g_=ra(f(S),am,Q),dz=a6(function(a){return I(b$(a))},Q);if(al(b$,Q)){var
-l6=a6(b$,Q),l7=k2(ap),g$=ia(0,e(k1,S),0,l7,0,l6);if(g$)var
-dA=rc(e(I,g_),dK),l8=dA?li(S,ap,am,dz,dN,dM,dA[1]):dA,dB=l8;else
+dK=aI[4],dL=aI[3],dM=aI[2],g_=ro(f(S),am,Q),dy=aZ(function(a){return I(cd(a))},Q);if(aj(cd,Q)){var
+l6=aZ(cd,Q),l7=k$(ap),g$=ii(0,e(k_,S),0,l7,0,l6);if(g$)var
+dz=rq(e(I,g_),dK),l8=dz?lr(S,ap,am,dy,dM,dL,dz[1]):dz,dA=l8;else
 var
-dB=g$;if(dB)var
-dC=dB;else{var
-ha=ib(S,am,dz,h1(S,ap,am,dz));if(ha){var
-dD=rc(g_,dK);if(dD){var
-l9=dD[1],l_=a6(b$,Q),l$=k2(ap);return lh(0,e(k1,S),0,l$,0,l_,dN,dM,l9)}var
-dC=dD}else
+dA=g$;if(dA)var
+dB=dA;else{var
+ha=ij(S,am,dy,h8(S,ap,am,dy));if(ha){var
+dD=rq(g_,dK);if(dD){var
+l9=dD[1],l_=aZ(cd,Q),l$=k$(ap);return lq(0,e(k_,S),0,l$,0,l_,dM,dL,l9)}var
+dB=dD}else
 var
-dC=ha}return dC}return li(S,ap,am,Q,dN,dM,dK);default:return 0}case
+dB=ha}return dB}return lr(S,ap,am,Q,dM,dL,dK);default:return 0}case
 1:var
-bt=a[6],bW=a[5],bX=a[4],bY=a[3],X=a[2],T=a[1],aL=w[2];switch(aL[0]){case
-0:return lg(T,X,bY,bX,bW,bt,aL[1],aL[2],aL[3]);case
+bs=a[6],bV=a[5],bW=a[4],bX=a[3],X=a[2],T=a[1],aL=w[2];switch(aL[0]){case
+0:return lp(T,X,bX,bW,bV,bs,aL[1],aL[2],aL[3]);case
 1:var
-aq=aL[4],dP=aL[3],hu=aL[2];if(typeof
+aq=aL[4],dN=aL[3],ht=aL[2];if(typeof
 aq!=="number"&&3===aq[0]){var
-mk=aq[5],ml=aq[4],mm=aq[3],mn=aq[2],mo=aq[1],r=typeof
-T==="number"?T?D8:D9:h$(T[1]),gX=dE(an(T),r),ds=e(k,hu),a7=k0(T,X,bY,bX,bW,bt),gY=q9(a7[2]),gZ=k$(X,e(k,dP));if(gZ[2])return 0;var
-dt=cY(mn);if(dt){var
-W=dt[1],du=cY(mm);if(du){var
-aG=du[1],g0=gb(y(lb,X),dP),g1=g0?ia(T,X,bY,bX,bW,bt):g0;if(g1)var
-lW=an(T),dv=n(f(ds),lW);else
+mk=aq[5],ml=aq[4],mm=aq[3],mn=aq[2],mo=aq[1],s=typeof
+T==="number"?T?Eq:Er:ih(T[1]),gX=dJ(an(T),s),dq=e(k,ht),a7=k9(T,X,bX,bW,bV,bs),gY=rl(a7[2]),gZ=li(X,e(k,dN));if(gZ[2])return 0;var
+ds=c2(mn);if(ds){var
+W=ds[1],dt=c2(mm);if(dt){var
+aH=dt[1],g0=gj(y(lk,X),dN),g1=g0?ii(T,X,bX,bW,bV,bs):g0;if(g1)var
+lW=an(T),du=n(f(dq),lW);else
 var
-dv=g1;if(dv)var
-lX=f(X),lY=fT(T),dx=n(mo,eg(ec(X),lY,lX,0,bt));else
+du=g1;if(du)var
+lX=f(X),lY=f1(T),dv=n(mo,en(ej(X),lY,lX,0,bs));else
 var
-dx=dv;if(dx){if(ec(X))var
-lZ=ac(d,gX),g2=g(ac(gY,r),lZ);else
+dv=du;if(dv){if(ej(X))var
+lZ=ab(d,gX),g2=g(ab(gY,s),lZ);else
 var
-l1=ac(R(gY),gX),g2=g(ac(d,r),l1);var
-l0=ie(g2,W,aG,ml,mk),ak=aw(r,ds),bo=aM(ao(r,ds)),dy=gZ[1],O=a7[5],fF=kC(0,W,aG),cE=p2(ao(r,fF)),cF=aw(r,fF),fG=a7[7],fH=fG?eS(j,a7[2],dy):fG,fK=fH?hB(j,a7,bo,ak):fH,fL=fK?ae(r,xS):fK;if(fL)var
-j$=N(r,f(ak)),cG=n(f(W),j$);else
+l1=ab(R(gY),gX),g2=g(ab(d,s),l1);var
+l0=im(g2,W,aH,ml,mk),al=ay(s,dq),bn=aN(ao(s,dq)),dx=gZ[1],O=a7[5],fF=kL(0,W,aH),cE=qe(ao(s,fF)),cF=ay(s,fF),fG=a7[7],fH=fG?e1(j,a7[2],dx):fG,fI=fH?hI(j,a7,bn,al):fH,fJ=fI?ae(s,x9):fI;if(fJ)var
+j_=N(s,f(al)),cG=n(f(W),j_);else
 var
-cG=fL;var
-fM=cG?hO(W,aG):cG;if(fM)var
-ka=hP(ao(r,aG)),kb=hP(ao(r,W)),cH=kE(j,a7[4],kb,ka);else
+cG=fJ;var
+fK=cG?hV(W,aH):cG;if(fK)var
+j$=hW(ao(s,aH)),ka=hW(ao(s,W)),cH=kN(j,a7[4],ka,j$);else
 var
-cH=fM;if(cH){var
-kc=aw(r,aG),kd=aw(r,W);if(O)var
-fC=O[1],j_=0===fC[0]?xQ:xR,fE=n(f(ak),j_),fN=fE?p1(j,fC,kd,kc):fE;else
+cH=fK;if(cH){var
+kb=ay(s,aH),kc=ay(s,W);if(O)var
+fD=O[1],j9=0===fD[0]?x7:x8,fE=n(f(al),j9),fM=fE?qd(j,fD,kc,kb):fE;else
 var
-fN=n(f(ak),0);var
-cJ=fN}else
+fM=n(f(al),0);var
+cI=fM}else
 var
-cJ=cH;if(cJ){var
-ke=ao(r,a1(bo)),kf=ao(r,aG),fO=eV(j,ao(r,W),kf,ke);if(fO)var
-a4=fO;else
+cI=cH;if(cI){var
+kd=ao(s,a2(bn)),ke=ao(s,aH),fN=e4(j,ao(s,W),ke,kd);if(fN)var
+a5=fN;else
 if(O){var
-fR=p0(O[1]);if(fR)var
-kh=aw(r,aG),a4=eV(j,aw(r,W),kh,ak);else
+fP=qc(O[1]);if(fP)var
+kg=ay(s,aH),a5=e4(j,ay(s,W),kg,al);else
 var
-a4=fR}else
+a5=fP}else
 var
-a4=O}else
+a5=O}else
 var
-a4=cJ;var
-fQ=a4?l(function(b){var
-a=eR(O,ak,bo,b),t=typeof
+a5=cI;var
+fO=a5?l(function(b){var
+a=e0(O,al,bn,b),t=typeof
 a==="number"?0:0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]];if(0===b[0])var
-k=kF(b[1]);else
+k=kO(b[1]);else
 var
-c=b[1],p=[0,c[5],[0,c[6],0]],q=g(a1(c[4]),p),r=g(a1(c[3]),q),s=g(a1(c[2]),r),k=g(a1(c[1]),s);var
-m=eU(g(k,t));if(m)var
-u=j8(O,ak,bo,b),v=1,e=l(function(a){return i(j,v,a)},u);else
+c=b[1],p=[0,c[5],[0,c[6],0]],q=g(a2(c[4]),p),r=g(a2(c[3]),q),s=g(a2(c[2]),r),k=g(a2(c[1]),s);var
+m=e3(g(k,t));if(m)var
+u=kf(O,al,bn,b),v=1,e=l(function(a){return i(j,v,a)},u);else
 var
 e=m;if(e){var
-d=eR(O,cF,cE,b),n=0;if(typeof
+d=e0(O,cF,cE,b),n=0;if(typeof
 d==="number"||!(1===d[0]))n=1;else{var
 o=0;if(typeof
 a!=="number"&&1===a[0]){var
 h=[0,[2,[4,d[1],a[1]],[4,d[2],a[2]]],0];o=1}if(!o)var
 h=0}if(n)var
 h=0;var
-w=g(j8(O,cF,cE,b),h),x=f(W);return l(function(a){return kD(j,x,a)},w)}return e},dy):a4;return fQ?hN(j,e(function(d){var
-a=eR(O,ak,bo,d),c=eR(O,cF,cE,d);if(typeof
+w=g(kf(O,cF,cE,b),h),x=f(W);return l(function(a){return kM(j,x,a)},w)}return e},dx):a5;return fO?hU(j,e(function(d){var
+a=e0(O,al,bn,d),c=e0(O,cF,cE,d);if(typeof
 c==="number")return[0,b,b];else{if(0===c[0]){if(typeof
 a!=="number"&&0===a[0])return[3,c[1],a[1]];return[0,b,b]}if(typeof
-a!=="number"&&1===a[0])return[3,[4,c[2],a[1]],[4,c[1],a[2]]];return[0,b,b]}},dy),l0):fQ}var
-g3=dx}else
+a!=="number"&&1===a[0])return[3,[4,c[2],a[1]],[4,c[1],a[2]]];return[0,b,b]}},dx),l0):fO}var
+g3=dv}else
 var
-g3=du;var
+g3=dt;var
 g4=g3}else
 var
-g4=dt;return g4}return lh(T,X,bY,bX,bW,bt,hu,dP,aq);default:return 0}case
+g4=ds;return g4}return lq(T,X,bX,bW,bV,bs,ht,dN,aq);default:return 0}case
 2:var
-aN=a[7],aO=a[6],bZ=a[5],b0=a[4],b1=a[3],Y=a[2],Z=a[1],aP=w[2];switch(aP[0]){case
+aM=a[7],aO=a[6],bY=a[5],bZ=a[4],b0=a[3],Y=a[2],Z=a[1],aP=w[2];switch(aP[0]){case
 0:var
-hv=aP[3],as=qH(Z,Y,b1,b0,bZ,aO,aN),mp=as[2],dQ=G(b,bP(y(function(a){var
-b=bi(a[2]);return g(bi(a[1]),b)},mp))),mq=f(hv),mr=kg(dQ,as[2]),ms=kg(dQ,as[2]),dS=ed(bG(Z),ms,mr,0,mq,hv);if(dS){var
-hw=dS[1];if(hw[2])return 0;var
-hx=q2(Z,Y,b1,b0,bZ,aO,aN);if(hx){var
-mt=hw[1],mu=f(Y),mv=eg(0,lc(Z),mu,aO,aN),mw=id(aP[2]),mx=aP[1],iZ=as[2],eu=l(function(a){var
-b=pk(j,a[1]);return b?pk(j,a[2]):b},iZ);if(eu)var
-i0=jL(as[4]),cg=cR(j,as[4],i0);else
+hu=aP[3],as=qV(Z,Y,b0,bZ,bY,aO,aM),mp=as[2],dO=G(b,bR(y(function(a){var
+b=bj(a[2]);return g(bj(a[1]),b)},mp))),mq=f(hu),mr=kp(dO,as[2]),ms=kp(dO,as[2]),dP=ek(bH(Z),ms,mr,0,mq,hu);if(dP){var
+hv=dP[1];if(hv[2])return 0;var
+hw=re(Z,Y,b0,bZ,bY,aO,aM);if(hw){var
+mt=hv[1],mu=f(Y),mv=en(0,ll(Z),mu,aO,aM),mw=il(aP[2]),mx=aP[1],iZ=as[2],eu=l(function(a){var
+b=py(j,a[1]);return b?py(j,a[2]):b},iZ);if(eu)var
+i0=jU(as[4]),cg=cV(j,as[4],i0);else
 var
 cg=eu;if(cg)var
-i1=hy(as[5]),ch=l(function(a){return fV(j,a)},i1);else
+i1=hF(as[5]),ch=l(function(a){return f3(j,a)},i1);else
 var
-ch=cg;return ch?wQ(mx,mw,mv,as,dQ,mt):ch}var
-hz=hx}else
+ch=cg;return ch?w7(mx,mw,mv,as,dO,mt):ch}var
+hx=hw}else
 var
-hz=dS;return hz;case
+hx=dP;return hx;case
 1:var
-_=aP[4],hA=aP[3],aQ=e(k,aP[2]),q=h$(Z),hC=qX(Y,e(k,hA));if(hC[2])return 0;var
-t=hC[1],hD=gb(y(function(a){return g(a[1],a[2])},Y),hA),hE=hD?q2(Z,Y,b1,b0,bZ,aO,aN):hD;if(hE){var
-p=qH(Z,Y,b1,b0,bZ,aO,aN);if(typeof
+_=aP[4],hy=aP[3],aQ=e(k,aP[2]),q=ih(Z),hA=q$(Y,e(k,hy));if(hA[2])return 0;var
+t=hA[1],hB=gj(y(function(a){return g(a[1],a[2])},Y),hy),hC=hB?re(Z,Y,b0,bZ,bY,aO,aM):hB;if(hC){var
+p=qV(Z,Y,b0,bZ,bY,aO,aM);if(typeof
 _!=="number")switch(_[0]){case
 2:var
-hM=e(k,_[1]),hS=aw(q,hM),hT=aM(ao(q,hM)),hU=aw(q,aQ),hX=aM(ao(q,aQ)),ev=eM(j,p,t,hX,hU),ew=ev?eM(j,p,t,hT,hS):ev;if(ew)var
-i2=bG(p[1]),ci=n(f(t),i2);else
+hK=e(k,_[1]),hL=ay(q,hK),hM=aN(ao(q,hK)),hN=ay(q,aQ),hO=aN(ao(q,aQ)),ev=eV(j,p,t,hO,hN),ew=ev?eV(j,p,t,hM,hL):ev;if(ew)var
+i2=bH(p[1]),ci=n(f(t),i2);else
 var
 ci=ew;if(ci){var
 ex=function(b,a){var
-c=p[5],d=p[3],f=p[1];return e(function(e){return jW(f,d,c,a,b,e)},t)},i3=ex(hT,hS),i4=ex(hX,hU);return ko(j,bG(p[1]),i4,i3)}return ci;case
+c=p[5],d=p[3],f=p[1];return e(function(e){return j5(f,d,c,a,b,e)},t)},i3=ex(hM,hL),i4=ex(hO,hN);return kx(j,bH(p[1]),i4,i3)}return ci;case
 3:var
-dW=cY(_[2]);if(dW){var
-at=dW[1],dX=cY(_[3]);if(dX){var
-aR=dX[1],mz=p[2],mA=G(b,bP(y(function(a){var
-b=bi(a[2]);return g(bi(a[1]),b)},mz))),mB=f(Y),mC=eg(0,lc(Z),mB,aO,aN),hY=n(_[1],mC);if(hY){var
-mD=_[5],mE=_[4],mF=ac(R(mA),dE(f(aQ),q)),mG=ie(g(ac(d,q),mF),at,aR,mE,mD),a8=aw(q,aQ),b6=aM(ao(q,aQ)),a3=p[5],ft=kC(0,at,aR),fv=p[7],fw=fv?eM(j,p,t,b6,a8):fv,fx=fw?ae(q,xN):fw;if(fx)var
-j1=N(q,f(a8)),cA=n(f(at),j1);else
+dT=c2(_[2]);if(dT){var
+au=dT[1],dV=c2(_[3]);if(dV){var
+aR=dV[1],mz=p[2],mA=G(b,bR(y(function(a){var
+b=bj(a[2]);return g(bj(a[1]),b)},mz))),mB=f(Y),mC=en(0,ll(Z),mB,aO,aM),hP=n(_[1],mC);if(hP){var
+mD=_[5],mE=_[4],mF=ab(R(mA),dJ(f(aQ),q)),mG=im(g(ab(d,q),mF),au,aR,mE,mD),a8=ay(q,aQ),b3=aN(ao(q,aQ)),a4=p[5],fu=kL(0,au,aR),fv=p[7],fw=fv?eV(j,p,t,b3,a8):fv,fx=fw?ae(q,x4):fw;if(fx)var
+jZ=N(q,f(a8)),cA=n(f(au),jZ);else
 var
 cA=fx;if(cA)var
-j2=0===a3[0]?xO:xP,cB=n(f(a8),j2);else
+j0=0===a4[0]?x5:x6,cB=n(f(a8),j0);else
 var
 cB=cA;var
-fy=cB?hO(at,aR):cB;if(fy)var
-j3=hP(ao(q,aR)),j4=hP(ao(q,at)),cC=kE(j,p[4],j4,j3);else
+fy=cB?hV(au,aR):cB;if(fy)var
+j1=hW(ao(q,aR)),j2=hW(ao(q,au)),cC=kN(j,p[4],j2,j1);else
 var
 cC=fy;if(cC)var
-j5=aw(q,aR),cD=p1(j,a3,aw(q,at),j5);else
+j3=ay(q,aR),cD=qd(j,a4,ay(q,au),j3);else
 var
 cD=cC;if(cD){var
-j6=ao(q,a1(b6)),j7=ao(q,aR),fz=eV(j,ao(q,at),j7,j6);if(fz)var
+j6=ao(q,a2(b3)),j7=ao(q,aR),fz=e4(j,ao(q,au),j7,j6);if(fz)var
 bl=fz;else{var
-fB=p0(a3);if(fB)var
-j9=aw(q,aR),bl=eV(j,aw(q,at),j9,a8);else
+fB=qc(a4);if(fB)var
+j8=ay(q,aR),bl=e4(j,ay(q,au),j8,a8);else
 var
 bl=fB}}else
 var
 bl=cD;var
 fA=bl?l(function(a){var
-c=a1(a[2]),b=eU(g(a1(a[1]),c));return b?eU([0,kG(a3,a8,b6,a),0]):b},t):bl;return fA?hN(j,e(function(a){var
-b=[6,kG(a3,a8,b6,a)],c=p2(ao(q,ft));return[3,[6,kG(a3,aw(q,ft),c,a)],b]},t),mG):fA}var
-h0=hY}else
+c=a2(a[2]),b=e3(g(a2(a[1]),c));return b?e3([0,kP(a4,a8,b3,a),0]):b},t):bl;return fA?hU(j,e(function(a){var
+b=[6,kP(a4,a8,b3,a)],c=qe(ao(q,fu));return[3,[6,kP(a4,ay(q,fu),c,a)],b]},t),mG):fA}var
+hQ=hP}else
 var
-h0=dX;var
-h3=h0}else
+hQ=dV;var
+hT=hQ}else
 var
-h3=dW;return h3}var
-my=f(Y),dT=ld(0,lc(Z),my,aO,aN,_);if(dT){var
-bu=dT[1],x=aM(ao(q,aQ)),u=aw(q,aQ),er=eM(j,p,t,x,u);if(er)var
+hT=dT;return hT}var
+my=f(Y),dQ=lm(0,ll(Z),my,aO,aM,_);if(dQ){var
+bu=dQ[1],z=aN(ao(q,aQ)),u=ay(q,aQ),er=eV(j,p,t,z,u);if(er)var
 af=p[5],es=p[3],et=p[1],iW=p[6],cf=function(a){var
-b=b5(af,u,x,a);return v(b5(af,u,x,a),b)},iP=e(function(a){return[0,jW(et,es,af,u,x,a)]},t),iQ=e(cf,t),iR=function(a){var
-b=di(af,u,a);return M(function(b,a){return[2,b,a]},x,b)},iS=e(function(a){var
-b=[6,cf(a)],c=b5(af,u,x,a),d=di(af,u,a[2]);return[0,[0,[0,M(function(b,a){return[2,b,a]},x,d),c],b]]},t),iT=e(function(a){return 0},t),iU=e(function(a){return[0,[6,cf(a)]]},t),iV=[0,e(function(c){var
-a=aC(b5(af,u,x,c));return jV(et,a,P([5,[0,b,b],es],cq(di(af,u,c[2]),a)))},t),iU,iT,iS,iR,iQ,iP],iX=bG(p[1]),iY=2<=p[1]?vD:vE,dV=jN(j,iY,iX,iV,iW,bu);else
+b=b9(af,u,z,a);return v(b9(af,u,z,a),b)},iP=e(function(a){return[0,j5(et,es,af,u,z,a)]},t),iQ=e(cf,t),iR=function(a){var
+b=dp(af,u,a);return M(function(b,a){return[2,b,a]},z,b)},iS=e(function(a){var
+b=[6,cf(a)],c=b9(af,u,z,a),d=dp(af,u,a[2]);return[0,[0,[0,M(function(b,a){return[2,b,a]},z,d),c],b]]},t),iT=e(function(a){return 0},t),iU=e(function(a){return[0,[6,cf(a)]]},t),iV=[0,e(function(c){var
+a=aD(b9(af,u,z,c));return j4(et,a,P([5,[0,b,b],es],cu(dp(af,u,c[2]),a)))},t),iU,iT,iS,iR,iQ,iP],iX=bH(p[1]),iY=2<=p[1]?vU:vV,dS=jW(j,iY,iX,iV,iW,bu);else
 var
-dV=er;if(dV)var
-hF=dV;else{if(typeof
+dS=er;if(dS)var
+hD=dS;else{if(typeof
 bu!=="number"&&0===bu[0]){var
-b3=bu[2];if(b3){if(b3[2])return 0;var
-b4=b3[1],hI=bu[1],bj=p[1],ff=eM(j,p,t,x,u),eq=0;if(ff){var
-jT=p[6],jU=2<=bj?xD:xE,cx=dU(j,jU,hI,jT),cd=0;if(cx){var
-a0=cx[1][1],ce=0;if(typeof
-a0!=="number"&&15===a0[0]){var
-cy=E(t,a0[1]);if(cy){var
-bk=fJ(b4),fi=a0[3],bJ=cy[1],bK=p[5],cz=p[3],jX=a0[4],jY=a0[2],e7=jW(bj,cz,bK,u,x,bJ),e8=b5(bK,u,x,bJ),cw=bh(bk,bk),e9=[4,[4,jY,[6,bh(e7,e7)]],cw],be=b5(bK,u,x,bJ),ct=di(bK,u,bJ[2]),bf=P([5,[0,b,b],cz],kA(bj,bk)),jI=cq(bf,ct),jJ=kz(bj,bk),cv=M(function(b,a){return[2,b,a]},jJ,jI),e6=v(be,cv),jK=v(bf,bf),jO=[4,v(be,ct),jK],jP=v(ct,bf),jQ=[3,[4,v(be,bf),jP],jO],jR=[5,[4,e6,e6],v(be,be)],e_=[4,[4,fi,fi],[2,[3,v(cv,cv),jR],jQ]],e$=[4,[4,jX,cw],[6,v(e8,e8)]],jS=bG(bj),fa=n(f(bk),jS),fb=fa?i(j,1,cw):fa,fc=fb?i(j,1,cz):fb,iO=0;if(fc){var
-fd=i(j,1,[3,[2,e9,e_],e$]);if(fd)var
-fe=fd;else{var
-bv=i(j,1,[3,[3,e9,e_],e$]);cd=1;ce=1;iO=1}}else
+b1=bu[2];if(b1){if(b1[2])return 0;var
+b2=b1[1],hH=bu[1],bg=p[1],fg=eV(j,p,t,z,u),eq=0;if(fg){var
+jQ=p[6],jR=2<=bg?xU:xV,cw=d1(j,jR,hH,jQ),b$=0;if(cw){var
+a1=cw[1][1],ce=0;if(typeof
+a1!=="number"&&15===a1[0]){var
+cx=E(t,a1[1]);if(cx){var
+bk=fR(b2),fj=a1[3],bG=cx[1],bI=p[5],cz=p[3],jS=a1[4],jT=a1[2],e6=j5(bg,cz,bI,u,z,bG),e7=b9(bI,u,z,bG),cv=bi(bk,bk),e8=[4,[4,jT,[6,bi(e6,e6)]],cv],be=b9(bI,u,z,bG),cs=dp(bI,u,bG[2]),bf=P([5,[0,b,b],cz],kJ(bg,bk)),jE=cu(bf,cs),jF=kI(bg,bk),ct=M(function(b,a){return[2,b,a]},jF,jE),eZ=v(be,ct),jG=v(bf,bf),jH=[4,v(be,cs),jG],jI=v(cs,bf),jJ=[3,[4,v(be,bf),jI],jH],jN=[5,[4,eZ,eZ],v(be,be)],e9=[4,[4,fj,fj],[2,[3,v(ct,ct),jN],jJ]],e$=[4,[4,jS,cv],[6,v(e7,e7)]],jP=bH(bg),fa=n(f(bk),jP),fb=fa?i(j,1,cv):fa,fc=fb?i(j,1,cz):fb,iO=0;if(fc){var
+fe=i(j,1,[3,[2,e8,e9],e$]);if(fe)var
+ff=fe;else{var
+bv=i(j,1,[3,[3,e8,e9],e$]);b$=1;ce=1;iO=1}}else
 var
-fe=fc;if(!iO){var
-bv=fe;cd=1;ce=1}}else{var
-bv=cy;cd=1;ce=1}}if(!ce)var
-fg=0}else
+ff=fc;if(!iO){var
+bv=ff;b$=1;ce=1}}else{var
+bv=cx;b$=1;ce=1}}if(!ce)var
+fh=0}else
 var
-fg=cx;if(!cd){var
-fh=fg;eq=1}}else{var
-fh=ff;eq=1}if(eq)var
-bv=fh;if(!bv){var
-fS=p[1],cK=p[5],fU=eM(j,p,t,x,u);if(fU){var
-ki=p[6],kj=2<=fS?x1:x2,cM=dU(j,kj,hI,ki);if(cM){var
-bm=cM[1][1];if(typeof
+fh=cw;if(!b$){var
+fi=fh;eq=1}}else{var
+fi=fg;eq=1}if(eq)var
+bv=fi;if(!bv){var
+fS=p[1],cJ=p[5],fT=eV(j,p,t,z,u);if(fT){var
+kh=p[6],ki=2<=fS?yg:yh,cK=d1(j,ki,hH,kh);if(cK){var
+bm=cK[1][1];if(typeof
 bm!=="number"&&16===bm[0]){var
-fZ=bm[1],f0=i(j,0,fZ);if(f0)var
-kk=f(p[2]),cN=n(f(b4),kk);else
+fW=bm[1],fY=i(j,0,fW);if(fY)var
+kj=f(p[2]),cL=n(f(b2),kj);else
 var
-cN=f0;if(cN){var
-kl=p[2],km=V(V(t,hQ(b4,e(function(a){var
-b=bI(a[2]);return p8(b5(cK,u,x,[0,bI(a[1]),b]))},kl),fZ)),b4),kn=e(function(e){var
-c=e[1],d=c[2],a=c[1],f=di(cK,u,a[2]),g=a[1],h=M(function(b,a){return[3,b,a]},x,g),i=[2,d,p8(b5(cK,u,x,a))];return[0,d7([5,[0,e[2],b],i]),d,h,f]},km);return p7(j,[0,fS],bm[2],bm[3],kn)}return cN}var
-fW=0}else
+cL=fY;if(cL){var
+kk=p[2],kl=V(V(t,hX(b2,e(function(a){var
+b=bJ(a[2]);return qk(b9(cJ,u,z,[0,bJ(a[1]),b]))},kk),fW)),b2),km=e(function(e){var
+c=e[1],d=c[2],a=c[1],f=dp(cJ,u,a[2]),g=a[1],h=M(function(b,a){return[3,b,a]},z,g),i=[2,d,qk(b9(cJ,u,z,a))];return[0,ec([5,[0,e[2],b],i]),d,h,f]},kl);return qj(j,[0,fS],bm[2],bm[3],km)}return cL}var
+fU=0}else
 var
-fW=cM;var
-fY=fW}else
+fU=cK;var
+fV=fU}else
 var
-fY=fU;return fY}var
+fV=fT;return fV}var
 hJ=bv}else
 var
-hJ=b3;return hJ}var
-hF=0}var
-hG=hF}else
+hJ=b1;return hJ}var
+hD=0}var
+hE=hD}else
 var
-hG=dT;var
-hH=hG}else
+hE=dQ;var
+hG=hE}else
 var
-hH=hE;return hH;default:return 0}case
+hG=hC;return hG;default:return 0}case
 3:var
-au=a[7],bw=a[6],bx=a[5],av=a[4],dY=a[3],aS=a[2],aT=a[1],aU=w[2];switch(aU[0]){case
+av=a[7],bw=a[6],bx=a[5],aw=a[4],dW=a[3],aS=a[2],aT=a[1],aU=w[2];switch(aU[0]){case
 0:var
-h4=aU[3],h5=ic(kw(kY(aT,aS,dY,av,bx,bw,au)[1])),mH=f(h4),dZ=ed(f(aT),h5,h5,0,mH,h4);if(dZ){var
-h6=dZ[1];if(h6[2])return 0;var
-h_=q3(aT,aS,av,bx,bw,au);if(h_){var
-mI=h6[1],$=kY(aT,aS,dY,av,bx,bw,au),mJ=eg(0,Ei,f(av),0,au),ig=id(aU[2]),aV=aU[1],eX=pO($[1]);if(eX)var
-jq=$[1][2],cr=l(function(a){return bD(j,a[2][1],a[2][2])},jq);else
+hZ=aU[3],h0=ik(kF(k7(aT,aS,dW,aw,bx,bw,av)[1])),mH=f(hZ),dX=ek(f(aT),h0,h0,0,mH,hZ);if(dX){var
+h1=dX[1];if(h1[2])return 0;var
+h4=rf(aT,aS,aw,bx,bw,av);if(h4){var
+mI=h1[1],$=k7(aT,aS,dW,aw,bx,bw,av),mJ=en(0,EC,f(aw),0,av),h5=il(aU[2]),aV=aU[1],eQ=p2($[1]);if(eQ)var
+jq=$[1][2],cq=l(function(a){return bE(j,a[2][1],a[2][2])},jq);else
 var
-cr=eX;if(cr)var
-jr=$[2],cs=l(function(a){return bD(j,a[1],a[2])},jr);else
+cq=eQ;if(cq)var
+jr=$[2],cr=l(function(a){return bE(j,a[1],a[2])},jr);else
 var
-cs=cr;if(cs){var
-B=$[1],ba=f(B[1]),bF=$[3],cj=f(B[2]),ey=N(cj,f(fX(e(aH,B[3])))),i5=B[3],ez=pK(hK(B),i5,cj),H=ku(ba,ez,B[4],ey),i6=ks(ez,B[4],ey),i7=B[3],eA=g(kr(hK(B),i7,cj),i6),eB=f(kw(B)),eC=kv(B[2]),eD=e(function(a){return a[4]},H),i8=g(eA,dk(function(b,a){if(typeof
+cr=cq;if(cr){var
+B=$[1],ba=f(B[1]),bC=$[3],cj=f(B[2]),ey=N(cj,f(f5(e(aJ,B[3])))),i5=B[3],ez=pY(hR(B),i5,cj),H=kD(ba,ez,B[4],ey),i6=kB(ez,B[4],ey),i7=B[3],eA=g(kA(hR(B),i7,cj),i6),eB=f(kF(B)),eC=kE(B[2]),eD=e(function(a){return a[4]},H),i8=g(eA,dr(function(b,a){if(typeof
 a!=="number"&&16===a[0]){var
-c=d5(H);return pp(eC,e(function(a){return a[3]},H),c,eD)}return pF(H,b,a)},0,d,eB,bF)),i9=g(bE(d5(H)),i8),eE=g(bE(eT(H)),i9),eF=c7(eE),eG=c6(eF),az=cL(eG),i_=function(c,a){if(typeof
+c=ea(H);return pD(eC,e(function(a){return a[3]},H),c,eD)}return pT(H,b,a)},0,d,eB,bC)),i9=g(bF(ea(H)),i8),eE=g(bF(e2(H)),i9),eF=db(eE),eG=da(eF),aA=cP(eG),i_=function(c,a){if(typeof
 a!=="number"&&16===a[0]){var
 f=B[4];if(l(function(a){return 0===a[0]?0:1},f)){var
-g=a[2],h=a[1],i=[0,J(aV,b)],j=d5(H);return pq(aV,az,ba,ba,xn,0,eC,d,e(function(a){return a[3]},H),j,eD,i,h,g)}return xo}return pG(aV,az,H,0,d,c,a)},eH=n(f($[2]),ba);if(eH)var
+g=a[2],h=a[1],i=[0,J(aV,b)],j=ea(H);return pE(aV,aA,ba,ba,xE,0,eC,d,e(function(a){return a[3]},H),j,eD,i,h,g)}return xF}return pU(aV,aA,H,0,d,c,a)},eH=n(f($[2]),ba);if(eH)var
 i$=B[4],ck=l(function(a){return 0===a[0]?n(f(a[1]),ba):1},i$);else
 var
 ck=eH;var
 eI=ck?l(function(a){var
-b=m(d);return aZ(s(h(az,a),eG,b),a)},eE):ck,eJ=eI?al(pH,bF):eI;if(eJ){var
+b=m(d);return a0(r(h(aA,a),eG,b),a)},eE):ck,eJ=eI?aj(pV,bC):eI;if(eJ){var
 eK=I($[4]);if(eK)var
-bH=eK;else
+bD=eK;else
 var
-jp=B[4],bH=l(function(a){return 0===a[0]?0:1},jp)}else
+jp=B[4],bD=l(function(a){return 0===a[0]?0:1},jp)}else
 var
-bH=eJ;if(bH){var
-ja=kw(B),cl=ad(e(function(a){return ar(aV,a)},ja));if(cl){var
-jb=0,jc=y(function(a){return fP(jb,d,a)},bF),cm=ad(e(function(a){return hs(aV,a)},jc));if(cm){var
-jd=$[2],cn=ad(e(function(a){return ar(aV,[0,a,d])},jd));if(cn){var
-co=ad(dk(i_,0,d,eB,bF));if(co){var
+bD=eJ;if(bD){var
+ja=kF(B),cl=ac(e(function(a){return ar(aV,a)},ja));if(cl){var
+jb=0,jc=y(function(a){return fX(jb,d,a)},bC),cm=ac(e(function(a){return hz(aV,a)},jc));if(cm){var
+jd=$[2],cn=ac(e(function(a){return ar(aV,[0,a,d])},jd));if(cn){var
+co=ac(dr(i_,0,d,eB,bC));if(co){var
 eL=co[1];if($[4])var
-je=ig[2],jf=ig[1],jg=d5(H),cp=jM(mJ,eL,[8,h(ay(az),jg),jf,je]);else
+je=h5[2],jf=h5[1],jg=ea(H),cp=jV(mJ,eL,[8,h(az(aA),jg),jf,je]);else
 var
 cp=eL;var
-jh=jC(cp),ji=cn[1],jj=function(a){return 0},jk=g(cl[1],cm[1]),jl=e(az,eA),jm=d5(H),jn=h(ay(az),jm),jo=eT(H);return gh(jB(aV,eF,h(ay(az),jo),jn,jl,jk,cp,jj),ji,jh,mI)}var
-eN=co}else
+jh=jL(cp),ji=cn[1],jj=function(a){return 0},jk=g(cl[1],cm[1]),jl=e(aA,eA),jm=ea(H),jn=h(az(aA),jm),jo=e2(H);return fd(jK(aV,eF,h(az(aA),jo),jn,jl,jk,cp,jj),ji,jh,mI)}var
+eM=co}else
 var
-eN=cn;var
+eM=cn;var
+eN=eM}else
+var
+eN=cm;var
 eO=eN}else
 var
-eO=cm;var
+eO=cl;var
 eP=eO}else
 var
-eP=cl;var
-eQ=eP}else
+eP=bD;return eP}return cr}var
+h7=h4}else
 var
-eQ=bH;return eQ}return cs}var
-ih=h_}else
-var
-ih=dZ;return ih;case
+h7=dX;return h7;case
 1:var
-ab=aU[4],ii=aU[3],b7=aU[2],A=kY(aT,aS,dY,av,bx,bw,au),mK=e(k,ii),ij=bq(e(aH,aS),mK);if(ij[2])return 0;var
-D=ij[1],ik=gb(e(aH,aS),ii),il=ik?q3(aT,aS,av,bx,bw,au):ik,im=il?pO(A[1]):il;if(im)var
-mL=A[2],d0=l(function(a){return bD(j,a[1],a[2])},mL);else
+aa=aU[4],h_=aU[3],b5=aU[2],A=k7(aT,aS,dW,aw,bx,bw,av),mK=e(k,h_),h$=bt(e(aJ,aS),mK);if(h$[2])return 0;var
+D=h$[1],ia=gj(e(aJ,aS),h_),ib=ia?rf(aT,aS,aw,bx,bw,av):ia,ig=ib?p2(A[1]):ib;if(ig)var
+mL=A[2],dZ=l(function(a){return bE(j,a[1],a[2])},mL);else
 var
-d0=im;if(d0){if(typeof
-ab!=="number")switch(ab[0]){case
+dZ=ig;if(dZ){if(typeof
+aa!=="number")switch(aa[0]){case
 2:var
-d4=e(k,ab[1]),d9=e(k,b7),aD=A[1],bL=hL(aD),jZ=pR(aD),fj=e(function(a){return a[3]},jZ),fk=function(a){var
-b=pS(aD,D);function
-c(c){return d6(a,b,c)}return e(function(a){return e(c,a)},fj)},fl=b8(j,e(aH,aD[2]),D),fm=fl?b8(j,A[2],d9):fl,fn=fm?b8(j,A[2],d4):fm,fo=fn?n(f(d9),bL):fn,fp=fo?n(f(d4),bL):fo,fq=fp?pT(aD,aD[4]):fp,fr=fq?n(f(aD[4]),bL):fq,fs=fr?l(function(a){return l(ky,a)},fj):fr;if(fs){var
-j0=fk(d4);return ko(j,bL,fk(d9),j0)}return fs;case
+d4=e(k,aa[1]),d5=e(k,b5),aE=A[1],bK=hS(aE),jX=p5(aE),fk=e(function(a){return a[3]},jX),fl=function(a){var
+b=p6(aE,D);function
+c(c){return eb(a,b,c)}return e(function(a){return e(c,a)},fk)},fm=ca(j,e(aJ,aE[2]),D),fn=fm?ca(j,A[2],d5):fm,fo=fn?ca(j,A[2],d4):fn,fp=fo?n(f(d5),bK):fo,fq=fp?n(f(d4),bK):fp,fr=fq?p7(aE,aE[4]):fq,fs=fr?n(f(aE[4]),bK):fr,ft=fs?l(function(a){return l(kH,a)},fk):fs;if(ft){var
+jY=fl(d4);return kx(j,bK,fl(d5),jY)}return ft;case
 3:var
-d_=cY(ab[2]);if(d_){var
-a9=d_[1],ea=cY(ab[3]);if(ea){var
-bA=ea[1],mN=eg(0,Ek,f(av),0,au),ir=n(ab[1],mN);if(ir){var
-mO=ab[5],mP=ab[4],mQ=ie(ac(d,f(aT)),a9,bA,mP,mO),bB=e(k,b7),aF=A[1],go=kC(0,a9,bA),gp=A[4],gq=gp?b8(j,e(aH,aF[2]),D):gp,gr=gq?b8(j,A[2],bB):gq;if(gr)var
-kM=e(bb,a9),cW=b8(j,A[2],kM);else
+d6=c2(aa[2]);if(d6){var
+a9=d6[1],d7=c2(aa[3]);if(d7){var
+bA=d7[1],mN=en(0,EE,f(aw),0,av),ir=n(aa[1],mN);if(ir){var
+mO=aa[5],mP=aa[4],mQ=im(ab(d,f(aT)),a9,bA,mP,mO),bB=e(k,b5),aG=A[1],go=kL(0,a9,bA),gp=A[4],gq=gp?ca(j,e(aJ,aG[2]),D):gp,gr=gq?ca(j,A[2],bB):gq;if(gr)var
+kw=e(bb,a9),cU=ca(j,A[2],kw);else
 var
-cW=gr;if(cW)var
-kN=e(bb,bA),cZ=b8(j,A[2],kN);else
+cU=gr;if(cU)var
+ky=e(bb,bA),cW=ca(j,A[2],ky);else
 var
-cZ=cW;var
-gs=cZ?hO(a9,bA):cZ,gt=gs?eV(j,a9,bA,bB):gs,gu=gt?eU(g(D,bB)):gt;if(gu)var
-kO=aF[3],c0=l(function(a){return f3(a[2])},kO);else
+cW=cU;var
+gs=cW?hV(a9,bA):cW,gt=gs?e4(j,a9,bA,bB):gs,gu=gt?e3(g(D,bB)):gt;if(gu)var
+kz=aG[3],cX=l(function(a){return f$(a[2])},kz);else
 var
-c0=gu;if(c0){var
-c1=kK(aF[4]);if(c1){var
-bQ=c1[1],gv=l(f3,bQ);if(gv)var
-kP=1,c2=p_(function(a){return i(j,kP,a)},aF,D,bB,bQ);else
+cX=gu;if(cX){var
+cZ=kT(aG[4]);if(cZ){var
+bO=cZ[1],gv=l(f$,bO);if(gv)var
+kC=1,c0=qm(function(a){return i(j,kC,a)},aG,D,bB,bO);else
 var
-c2=gv;if(c2)var
-kQ=f(a9),c3=p_(function(a){return kD(j,kQ,a)},aF,D,go,bQ);else
+c0=gv;if(c0)var
+kG=f(a9),c3=qm(function(a){return kM(j,kG,a)},aG,D,go,bO);else
 var
-c3=c2;if(c3)return hN(j,e(function(a){var
-b=a2(f2(aF,D,bB),a);return[3,a2(f2(aF,D,go),a),b]},bQ),mQ);var
+c3=c0;if(c3)return hU(j,e(function(a){var
+b=a3(f_(aG,D,bB),a);return[3,a3(f_(aG,D,go),a),b]},bO),mQ);var
 gw=c3}else
 var
-gw=c1;var
+gw=cZ;var
 gx=gw}else
 var
-gx=c0;return gx}var
+gx=cX;return gx}var
 is=ir}else
 var
-is=ea;var
+is=d7;var
 it=is}else
 var
-it=d_;return it}var
-d1=ld(0,Ej,f(av),0,au,ab);if(d1){var
-by=d1[1],aW=e(k,b7),L=A[1],eZ=hL(L),bc=pR(L),jy=pP(L),jz=L[4],jA=ks(pQ(L),jz,jy),jE=f(L[2]),jG=L[3],eY=g(kr(hK(L),jG,jE),jA),bd=pS(L,D),e0=b8(j,e(aH,L[2]),D),e2=e0?b8(j,A[2],aW):e0,e3=e2?n(f(aW),eZ):e2,e4=e3?pT(L,L[4]):e3,e5=e4?l(ky,g(y(xs,bc),eY)):e4;if(e5)var
-jH=A[3],js=e(function(a){var
-b=a[1];return[0,e(function(a){return d6(aW,bd,a)},b)]},bc),jt=y(function(c){var
+it=d6;return it}var
+d0=lm(0,ED,f(aw),0,av,aa);if(d0){var
+by=d0[1],aW=e(k,b5),L=A[1],eS=hS(L),bc=p5(L),jy=p3(L),jz=L[4],jA=kB(p4(L),jz,jy),jB=f(L[2]),jC=L[3],eR=g(kA(hR(L),jC,jB),jA),bd=p6(L,D),eT=ca(j,e(aJ,L[2]),D),eU=eT?ca(j,A[2],aW):eT,eW=eU?n(f(aW),eS):eU,eX=eW?p7(L,L[4]):eW,eY=eX?l(kH,g(y(xJ,bc),eR)):eX;if(eY)var
+jD=A[3],js=e(function(a){var
+b=a[1];return[0,e(function(a){return eb(aW,bd,a)},b)]},bc),jt=y(function(c){var
 a=c[1];switch(a[0]){case
 7:var
-b=d6(aW,bd,a[2]);return[0,[4,b,b],0];case
-9:return[0,d6(aW,bd,a[1]),0];default:return 0}},eY),ju=function(a){return a},jv=0,jw=e(function(a){return 0},bc),jx=e(function(b){var
+b=eb(aW,bd,a[2]);return[0,[4,b,b],0];case
+9:return[0,eb(aW,bd,a[1]),0];default:return 0}},eR),ju=function(a){return a},jv=0,jw=e(function(a){return 0},bc),jx=e(function(b){var
 a=b[4];if(typeof
-a!=="number"&&0===a[0])return[0,d6(aW,bd,a[1])];return 0},bc),d2=jN(j,xt,eZ,[0,e(function(a){var
-b=a[3];return e(function(a){return d6(aW,bd,a)},b)},bc),jx,jw,jv,ju,jt,js],jH,by);else
+a!=="number"&&0===a[0])return[0,eb(aW,bd,a[1])];return 0},bc),d2=jW(j,xK,eS,[0,e(function(a){var
+b=a[3];return e(function(a){return eb(aW,bd,a)},b)},bc),jx,jw,jv,ju,jt,js],jD,by);else
 var
-d2=e5;if(d2)var
+d2=eY;if(d2)var
 io=d2;else{if(typeof
 by!=="number"&&0===by[0]){var
-ca=by[2];if(ca){if(ca[2])return 0;var
-d3=ca[1],mM=by[1],bz=e(k,b7),aE=A[1],bM=f(aE[1]),f1=b8(j,e(aH,aE[2]),D),f4=f1?b8(j,A[2],bz):f1,f5=f4?n(f(bz),bM):f4,f6=f5?dq(g(D,bz)):f5;if(f6)var
-kp=aE[3],cP=l(function(a){return f3(a[2])},kp);else
+b7=by[2];if(b7){if(b7[2])return 0;var
+d3=b7[1],mM=by[1],bz=e(k,b5),aF=A[1],bL=f(aF[1]),fZ=ca(j,e(aJ,aF[2]),D),f0=fZ?ca(j,A[2],bz):fZ,f2=f0?n(f(bz),bL):f0,f4=f2?dw(g(D,bz)):f2;if(f4)var
+kn=aF[3],cN=l(function(a){return f$(a[2])},kn);else
 var
-cP=f6;if(cP){var
-cQ=dU(j,x4,mM,A[3]);if(cQ){var
-bN=cQ[1][1];if(typeof
-bN!=="number"&&16===bN[0]){var
-gd=bN[2],ge=bN[1],cS=kK(aE[4]);if(cS){var
-bO=cS[1],cT=hR(aB(cU,gd));if(cT){var
-kq=cT[1],gf=i(j,1,gd),gg=gf?i(j,0,ge):gf;if(gg)var
-kt=f(bO),cV=n(f(d3),kt);else
+cN=f4;if(cN){var
+cO=d1(j,yj,mM,A[3]);if(cO){var
+bM=cO[1][1];if(typeof
+bM!=="number"&&16===bM[0]){var
+f8=bM[2],f9=bM[1],cQ=kT(aF[4]);if(cQ){var
+bN=cQ[1],cS=hY(aC(cY,f8));if(cS){var
+ko=cS[1],ga=i(j,1,f8),gb=ga?i(j,0,f9):ga;if(gb)var
+kq=f(bN),cT=n(f(d3),kq);else
 var
-cV=gg;var
-gi=cV?l(f3,bO):cV;if(gi){var
-kx=aE[2],kB=f2(aE,e(function(a){return d8(a[2])},kx),bz),gj=hQ(d3,e(function(a){return a2(kB,a)},bO),ge),gk=dq(gj);if(gk){var
-kH=V(bz,aI(0,bM)),kJ=f2(aE,D,e(function(a){var
-b=cu(a[2],kq);return[2,a[1],b]},kH)),kL=V(V(e(function(a){return a2(kJ,a)},bO),gj),d3);return kI(j,bM,bM,eW(function(a){return[4,[0,a[2],b],[3,a[1][1],a[1][2]]]},kL))}var
-gl=gk}else
+cT=gb;var
+gc=cT?l(f$,bN):cT;if(gc){var
+kr=aF[2],ks=f_(aF,e(function(a){return ed(a[2])},kr),bz),gd=hX(d3,e(function(a){return a3(ks,a)},bN),f9),gh=dw(gd);if(gh){var
+kt=V(bz,aB(0,bL)),ku=f_(aF,D,e(function(a){var
+b=cy(a[2],ko);return[2,a[1],b]},kt)),kv=V(V(e(function(a){return a3(ku,a)},bN),gd),d3);return kR(j,bL,bL,e5(function(a){return[4,[0,a[2],b],[3,a[1][1],a[1][2]]]},kv))}var
+gl=gh}else
 var
-gl=gi;var
+gl=gc;var
 gm=gl}else
 var
-gm=cT;var
+gm=cS;var
 gn=gm}else
 var
-gn=cS;return gn}var
-f7=0}else
+gn=cQ;return gn}var
+f6=0}else
 var
-f7=cQ;var
-f$=f7}else
+f6=cO;var
+f7=f6}else
 var
-f$=cP;return f$}return ca}var
+f7=cN;return f7}return b7}var
 io=0}var
 ip=io}else
 var
-ip=d1;var
+ip=d0;var
 iq=ip}else
 var
-iq=d0;return iq;default:return 0}case
+iq=dZ;return iq;default:return 0}case
 4:var
-aX=a[3],a_=a[2],cb=a[1],aY=w[2];switch(aY[0]){case
+aX=a[3],a_=a[2],b8=a[1],aY=w[2];switch(aY[0]){case
 0:var
-mR=aY[3],mS=aY[2],mT=aY[1],hb=dw(k(cb));if(hb){var
-dF=qJ(aX);if(dF){var
-hc=dF[1],bp=hc[2],hd=k(bp),he=k(hc[1]),gB=i(j,1,k(a_)),gC=gB?i(j,1,[3,hd,[0,b,b]]):gB,gD=gC?i(j,1,he):gC,hf=gD?i(j,0,[3,[5,[0,b,b],hd],he]):gD,hg=hf?l(function(a){var
-b=qF(0,0,Eg,a);if(b)var
+mR=aY[3],mS=aY[2],mT=aY[1],hb=dC(k(b8));if(hb){var
+dE=qX(aX);if(dE){var
+hc=dE[1],bp=hc[2],hd=k(bp),he=k(hc[1]),gB=i(j,1,k(a_)),gC=gB?i(j,1,[3,hd,[0,b,b]]):gB,gD=gC?i(j,1,he):gC,hf=gD?i(j,0,[3,[5,[0,b,b],hd],he]):gD,hg=hf?l(function(a){var
+b=qT(0,0,EA,a);if(b)var
 c=b;else{var
-d=cX(a);if(d)return aJ(0,0,a);var
-c=d}return c},aX):hf,hj=hg?l(function(c){if(1===c[1]){var
+d=c1(a);if(d)return aK(0,0,a);var
+c=d}return c},aX):hf,hh=hg?l(function(c){if(1===c[1]){var
 a=c[4];if(typeof
-a!=="number"&&0===a[0])return i(j,0,[3,[0,d,b],k(a[1])]);return 1}return 1},aX):hg;if(hj){var
-dr=a6(function(a){return I(qK(a))},aX);if(dr){var
-md=[0,c(2,b),b],bT=i(j,0,[3,k(bp),md]);if(bT)var
-dG=bT;else
+a!=="number"&&0===a[0])return i(j,0,[3,[0,d,b],k(a[1])]);return 1}return 1},aX):hg;if(hh){var
+dn=aZ(function(a){return I(qY(a))},aX);if(dn){var
+md=[0,c(2,b),b],bS=i(j,0,[3,k(bp),md]);if(bS)var
+dF=bS;else
 var
-mg=k(bp),dG=i(j,0,[3,[0,c(2,b),b],mg]);if(dG){var
-ma=y(function(a){if(cX(a))return Ec;var
-b=h2(0,Ed,0,a);return y(function(b){var
-c=fI(j,Ee,b);return ac(I(qK(a)),c)},b)},aX),mb=function(f){var
-a=gc(ma,f[1]);if(a){var
+mg=k(bp),dF=i(j,0,[3,[0,c(2,b),b],mg]);if(dF){var
+ma=y(function(a){if(c1(a))return Ew;var
+b=h9(0,Ex,0,a);return y(function(b){var
+c=fQ(j,Ey,b);return ab(I(qY(a)),c)},b)},aX),mb=function(f){var
+a=gk(ma,f[1]);if(a){var
 c=a[1],e=f[2];switch(e[0]){case
 0:return[0,[0,c,[0,e[1]]],0];case
-2:return[0,[0,c,[1,Ef,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},mc=e(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,y(mb,a[1]),d,c,b]},mR),me=[0,dr[1],dr[2]],mf=qO(bT,a_,bp);return lg(0,qN(bT,cb,a_,bp),0,mf,0,me,mT,mS,mc)}return dG}var
-hk=1}else
+2:return[0,[0,c,[1,Ez,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},mc=e(function(a){var
+b=a[4],c=a[3],d=a[2];return[0,y(mb,a[1]),d,c,b]},mR),me=[0,dn[1],dn[2]],mf=q2(bS,a_,bp);return lp(0,q1(bS,b8,a_,bp),0,mf,0,me,mT,mS,mc)}return dF}var
+hi=1}else
 var
-hk=hj;var
-hl=hk}else
+hi=hh;var
+hj=hi}else
 var
-hl=dF;var
-hm=hl}else
+hj=dE;var
+hk=hj}else
 var
-hm=hb;return hm;case
+hk=hb;return hk;case
 1:var
-mU=aY[4],mV=aY[3],mW=aY[2],hn=dw(k(cb));if(hn){var
-dH=qJ(aX);if(dH){var
-br=dH[1][2],mh=[0,c(2,b),b],bU=i(j,0,[3,k(br),mh]),ho=i(j,1,k(a_)),hp=ho?i(j,1,[3,k(br),[0,b,b]]):ho;if(hp)if(bU)var
-bV=bU;else
+mU=aY[4],mV=aY[3],mW=aY[2],hl=dC(k(b8));if(hl){var
+dG=qX(aX);if(dG){var
+bq=dG[1][2],mh=[0,c(2,b),b],bT=i(j,0,[3,k(bq),mh]),hm=i(j,1,k(a_)),hn=hm?i(j,1,[3,k(bq),[0,b,b]]):hm;if(hn)if(bT)var
+bU=bT;else
 var
-mj=k(br),bV=i(j,0,[3,[0,c(2,b),b],mj]);else
+mj=k(bq),bU=i(j,0,[3,[0,c(2,b),b],mj]);else
 var
-bV=hp;if(bV){var
-mi=qO(bU,a_,br);return lh(0,qN(bU,cb,a_,br),0,mi,0,aX,mW,mV,mU)}var
-hq=bV}else
+bU=hn;if(bU){var
+mi=q2(bT,a_,bq);return lq(0,q1(bT,b8,a_,bq),0,mi,0,aX,mW,mV,mU)}var
+hq=bU}else
 var
-hq=dH;var
+hq=dG;var
 hr=hq}else
 var
-hr=hn;return hr;default:return 0}case
+hr=hl;return hr;default:return 0}case
 5:var
-eb=a[4],iu=a[1],ee=w[2];if(0===ee[0]){var
-iv=ee[3],C=h1(iu,[0,a[2],a[3]],0,eb),mX=f(iv),ef=k_(le(C),mX,iv);if(ef){var
-iw=ef[1];if(iw[2])return 0;var
-ix=ib(iu,0,eb,C),iy=ix?I(al(cX,eb)):ix;if(iy){var
-iz=od(j,C);if(iz){var
-mY=iw[1],iA=e(h8,C[1]),U=h9(C[1]),iB=k(a[5]),ax=ee[1],db=hh(U,iA,C[1]),ag=jD(U,iA,C[1],0),kZ=f(C[3]),k3=N(f(db),kZ),bR=[0,f(db),k3],k4=jF(ag,U,bR,C[3]),k5=g(e(c$,ag),k4),gF=g(bE(fu(ag)),k5),gG=c7(gF),gH=c6(gG),a5=cL(gH),gI=C[2];if(0===gI[0]){var
+d8=a[4],iu=a[1],d9=w[2];if(0===d9[0]){var
+iv=d9[3],C=h8(iu,[0,a[2],a[3]],0,d8),mX=f(iv),d_=lh(ln(C),mX,iv);if(d_){var
+iw=d_[1];if(iw[2])return 0;var
+ix=ij(iu,0,d8,C),iy=ix?I(aj(c1,d8)):ix;if(iy){var
+iz=or(j,C);if(iz){var
+mY=iw[1],iA=e(id,C[1]),U=ie(C[1]),iB=k(a[5]),ax=d9[1],c7=ho(U,iA,C[1]),ag=jM(U,iA,C[1],0),kV=f(C[3]),kW=N(f(c7),kV),bP=[0,f(c7),kW],kX=jO(ag,U,bP,C[3]),kY=g(e(df,ag),kX),gF=g(bF(fC(ag)),kY),gG=db(gF),gH=da(gG),a6=cP(gH),gI=C[2];if(0===gI[0]){var
 gJ=l(function(a){var
-b=m(d);return aZ(s(h(a5,a),gH,b),a)},gF),gK=gJ?i(j,1,iB):gJ;if(gK){var
-k6=C[3],k8=y(function(a){return dR(U,a)},k6),la=C[3],lj=g(db,g(e(function(a){return b2(U,a)},la),k8)),dc=ad(e(function(a){return ar(ax,a)},lj));if(dc){var
-lk=bg(gI[1],U),dd=ad(e(function(a){return ar(ax,a)},lk));if(dd){var
-de=c9(ax,U,[5,iB,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(de){var
-df=C[3],ll=dd[1],lm=dc[1],ln=de[1],kS=aI(0,f(df)),kT=e(function(k){var
-l=E(df,k);if(l){var
-a=l[1],u=ao(k,df),v=f(y(function(a){return dR(U,a)},u)),w=N(bR[2],v),j=[0,N(bR[1],k),w],r=fu(ag),g=h(ay(a5),r),c=[1,[8,[1,[1,j[1]]]]],d=hi(ag,U,j,a),n=d?[0,[3,e(a5,[0,d[1],d[2]])]]:d,m=0;if(typeof
+b=m(d);return a0(r(h(a6,a),gH,b),a)},gF),gK=gJ?i(j,1,iB):gJ;if(gK){var
+kZ=C[3],k0=y(function(a){return dY(U,a)},kZ),k1=C[3],k2=g(c7,g(e(function(a){return b6(U,a)},k1),k0)),c8=ac(e(function(a){return ar(ax,a)},k2));if(c8){var
+k3=bh(gI[1],U),c9=ac(e(function(a){return ar(ax,a)},k3));if(c9){var
+c$=dd(ax,U,[5,iB,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(c$){var
+dc=C[3],k8=c9[1],la=c8[1],lb=c$[1],kQ=aB(0,f(dc)),kS=e(function(k){var
+l=E(dc,k);if(l){var
+a=l[1],u=ao(k,dc),v=f(y(function(a){return dY(U,a)},u)),w=N(bP[2],v),j=[0,N(bP[1],k),w],r=fC(ag),g=h(az(a6),r),c=[1,[8,[1,[1,j[1]]]]],d=hp(ag,U,j,a),n=d?[0,[3,e(a6,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
 0:return[0,[0,g,c]];case
 1:return[0,[1,g,c]];case
@@ -8906,27 +9035,27 @@ q=c;m=1;break;case
 3:case
 6:case
 7:return n}if(m){var
-t=fD(ag,U,j,a);return z(function(a){return[0,h(ay(a5),a),q]},t)}return 0}return l},kS),kU=e(function(a){return h(a5,c$(a))},ag),gE=e(function(a){return h(a5,a[2])},ag),lo=C[3],lp=bR[1],c_=function(aC,aB,aA){var
+t=fL(ag,U,j,a);return x(function(a){return[0,h(az(a6),a),q]},t)}return 0}return l},kQ),kU=e(function(a){return h(a6,df(a))},ag),gE=e(function(a){return h(a6,a[2])},ag),lc=C[3],ld=bP[1],c6=function(aC,aB,aA){var
 k=aC,m=aB,g=aA;for(;;)switch(g[0]){case
 0:var
-v=g[1],_=n(f(v),ye),$=_?l(function(a){var
+v=g[1],_=n(f(v),yv),$=_?l(function(a){var
 d=F(R(c(2,c(2,c(2,b)))),a);return d?F(a,c(2,c(2,c(2,b)))):d},v):_;if($){var
-ab=qj(ax,ln,dO(0,m),v),j=g[2],w=c5(0,bC(ax,ab,e(aa,k)),gG),aD=e(aa,k),M=function(a){return qi(qh(ax,ab,aD,w,a))};if(typeof
-j==="number")return 0===j?al(function(b){var
-a=s(b,w,0);return a?F(a[1][2][2],d):a},gE):0;else{if(0===j[0]){var
-a=j[2],O=l(yc,a);if(O){var
-q=s(j[1],kT,0);if(q){var
+aa=qx(ax,lb,dU(0,m),v),j=g[2],w=c_(0,b4(ax,aa,e(ad,k)),gG),aD=e(ad,k),M=function(a){return qw(qv(ax,aa,aD,w,a))};if(typeof
+j==="number")return 0===j?aj(function(b){var
+a=r(b,w,0);return a?F(a[1][2][2],d):a},gE):0;else{if(0===j[0]){var
+a=j[2],O=l(yt,a);if(O){var
+q=r(j[1],kS,0);if(q){var
 i=q[1];switch(i[0]){case
 0:var
 x=0;if(a)if(a[2])var
 h=0;else{var
-A=a[1],B=i[1],ao=hW(B,A),ap=hV(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],ap]],ao]],0]]];x=1}else{var
+A=a[1],B=i[1],ao=h3(B,A),ap=h2(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],ap]],ao]],0]]];x=1}else{var
 C=a;x=1}if(x)var
 h=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 h=0;else{var
-D=a[1],G=i[1],aq=hV(D),ar=[1,[6,i[2],aq]],H=[0,[0,G,[0,[1,[4,hW(G,D),ar]],0]]];y=1}else{var
+D=a[1],G=i[1],aq=h2(D),ar=[1,[6,i[2],aq]],H=[0,[0,G,[0,[1,[4,h3(G,D),ar]],0]]];y=1}else{var
 H=a;y=1}if(y)var
 h=H;break;case
 2:var
@@ -8934,7 +9063,7 @@ z=0;if(a){var
 o=a[2],an=0;if(o)if(o[2]){var
 h=0;an=1}else
 var
-I=o[1],J=a[1],p=i[1],as=hV(J),at=[1,[6,hW(p,I),as]],au=[1,[6,i[2],at]],av=hV(I),K=[0,[0,p,[0,[1,[4,[1,[6,hW(p,J),av]],au]],0]]];else
+I=o[1],J=a[1],p=i[1],as=h2(J),at=[1,[6,h3(p,I),as]],au=[1,[6,i[2],at]],av=h2(I),K=[0,[0,p,[0,[1,[4,[1,[6,h3(p,J),av]],au]],0]]];else
 var
 K=o;if(!an){var
 L=K;z=1}}else{var
@@ -8943,7 +9072,7 @@ h=L;break;default:if(a)var
 h=0;else
 var
 aw=i[1],h=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},aw)]]}if(h){var
-P=h[1],ay=P[1],Q=l(function(a){return qi(s(a[2],w,0))},ay);if(Q)return l(M,P[2]);var
+P=h[1],ay=P[1],Q=l(function(a){return qw(r(a[2],w,0))},ay);if(Q)return l(M,P[2]);var
 S=Q}else
 var
 S=h;var
@@ -8953,37 +9082,37 @@ T=q;var
 U=T}else
 var
 U=O;return U}var
-V=j[2],W=j[1],r=E(lo,W);if(r){var
-X=r[1];if(typeof
+V=j[2],W=j[1],s=E(lc,W);if(s){var
+X=s[1];if(typeof
 X!=="number"&&1===X[0]){var
 t=E(gE,V);if(t){var
 u=E(kU,V);if(u){var
-az=N(lp,W);return M([1,[4,[1,[8,[0,u[1]]]],[1,[6,[1,[8,[1,[1,az]]]],[0,t[1]]]]]])}var
+az=N(ld,W);return M([1,[4,[1,[8,[0,u[1]]]],[1,[6,[1,[8,[1,[1,az]]]],[0,t[1]]]]]])}var
 Z=u}else
 var
 Z=t;return Z}var
 Y=0}else
 var
-Y=r;return Y}}return $;case
+Y=s;return Y}}return $;case
 1:var
-ac=g[1],ad=qk(ac,m);if(ad){var
-ae=da(ac,m),af=c_(k,ae[1],g[2]);if(af){var
+ab=g[1],ac=qy(ab,m);if(ac){var
+ae=dg(ab,m),af=c6(k,ae[1],g[2]);if(af){var
 m=ae[2],g=g[3];continue}var
 ag=af}else
 var
-ag=ad;return ag;default:var
-ah=g[1],ai=qk(ah,k);if(ai){var
-aj=da(ah,k),ak=c_(aj[1],m,g[2]);if(ak){var
-k=aj[2],g=g[3];continue}var
-am=ak}else
+ag=ac;return ag;default:var
+ah=g[1],ai=qy(ah,k);if(ai){var
+ak=dg(ah,k),al=c6(ak[1],m,g[2]);if(al){var
+k=ak[2],g=g[3];continue}var
+am=al}else
 var
-am=ai;return am}};return c_(lm,ll,mY)}var
-gL=de}else
+am=ai;return am}};return c6(la,k8,mY)}var
+gL=c$}else
 var
-gL=dd;var
+gL=c9;var
 gM=gL}else
 var
-gM=dc;var
+gM=c8;var
 gN=gM}else
 var
 gN=gK;return gN}return 0}var
@@ -8992,76 +9121,76 @@ var
 iC=iy;var
 iD=iC}else
 var
-iD=ef;return iD}return 0;case
+iD=d_;return iD}return 0;case
 6:var
 iE=a[1];if(iE){var
-iF=iE[1],eh=w[2];if(0===eh[0]){var
-ei=k9(Em,0,0,0,El,eh[3]);if(ei){var
-iG=ga(iF);if(iG){var
-mZ=ei[1],iH=b_(iF)[2],cc=eh[1],c4=c9(cc,d,iH);if(c4){var
-c8=c9(cc,d,[5,[0,b,b],iH]);if(c8){var
-kR=c4[1][1],gy=K(cI(cc),kR);if(gy)return qg(cc,c8[1][1],mZ);var
+iF=iE[1],d$=w[2];if(0===d$[0]){var
+ee=lg(EG,0,0,0,EF,d$[3]);if(ee){var
+iG=gi(iF);if(iG){var
+mZ=ee[1],iH=cc(iF)[2],b_=d$[1],c4=dd(b_,d,iH);if(c4){var
+c5=dd(b_,d,[5,[0,b,b],iH]);if(c5){var
+kK=c4[1][1],gy=K(cM(b_),kK);if(gy)return qu(b_,c5[1][1],mZ);var
 gz=gy}else
 var
-gz=c8;var
+gz=c5;var
 gA=gz}else
 var
 gA=c4;return gA}var
 iI=iG}else
 var
-iI=ei;return iI}return 0}var
-ej=w[2];if(0===ej[0]){var
-ek=k9(Eo,0,0,0,En,ej[3]);return ek?qg(ej[1],d,ek[1]):ek}return 0;default:var
+iI=ee;return iI}return 0}var
+ef=w[2];if(0===ef[0]){var
+eh=lg(EI,0,0,0,EH,ef[3]);return eh?qu(ef[1],d,eh[1]):eh}return 0;default:var
 a$=a[1],iJ=w[2];if(2===iJ[0]){var
-iK=iJ[1],el=k7(f(iK),iK);if(el){var
-iL=el[1];if(iL[2])return 0;var
-em=iL[1],g5=ae(D$,f(a$)),g6=g5?ae(f(a$),dL):g5,g7=g6?pN(e(aA,a$)):g6,iM=g7?l(function(c){var
-a=cO(k(c[2][1]));if(a){var
-b=cO(k(c[2][2]));if(b)return I(bn(b[1],a[1]));var
+iK=iJ[1],ei=le(f(iK),iK);if(ei){var
+iL=ei[1];if(iL[2])return 0;var
+el=iL[1],g5=ae(Et,f(a$)),g6=g5?ae(f(a$),dR):g5,g7=g6?p1(e(at,a$)):g6,iM=g7?l(function(c){var
+a=cR(k(c[2][1]));if(a){var
+b=cR(k(c[2][2]));if(b)return I(bo(b[1],a[1]));var
 d=b}else
 var
 d=a;return d},a$):g7;if(iM)var
-m0=h7(C1,em),en=q$(a[5],m0);else
+m0=ic(Dg,el),em=rn(a[5],m0);else
 var
-en=iM;if(en)var
-m1=h7(C2,em),eo=q$(a[6],m1);else
+em=iM;if(em)var
+m1=ic(Dh,el),eo=rn(a[6],m1);else
 var
-eo=en;if(eo){var
-lV=e(function(a){return[0,d,0]},a$);return q_(a$,a[2],a[3],a[4],lV,em)}var
+eo=em;if(eo){var
+lV=e(function(a){return[0,d,0]},a$);return rm(a$,a[2],a[3],a[4],lV,el)}var
 iN=eo}else
 var
-iN=el;return iN}return 0}}return bs}var
-Z=[bc,Er,tw(0)],rd=[bc,Es,tw(0)];function
-Ep(l,b){var
-f=[0,o(Cn,at(b[4])),0],g=[0,o(Cp,aj([0,o(Co,at(b[3])),f])),0],a=b[2];switch(a[0]){case
+iN=ei;return iN}return 0}}return br}var
+Z=[bc,EL,tK(0)],rr=[bc,EM,tK(0)];function
+EJ(l,b){var
+f=[0,o(CE,av(b[4])),0],g=[0,o(CG,ak([0,o(CF,av(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=T(Cj,qr(a[1],a[2],a[3]));break;case
+c=T(CA,qF(a[1],a[2],a[3]));break;case
 1:var
-c=T(Ck,qs(a[1],a[2],a[3],a[4]));break;default:var
-c=T(Cl,H(e(Ce,a[1])))}var
-h=[0,o(Cq,c),g],i=1===b[2][0]?Cw:Cr,j=[0,o(Cs,at(i)),h],k=[0,o(Ct,AQ(b[1])),j],d=aG(l$(Eq,hX(aj([0,o(Cv,at(Cu)),k]),Cm)),l);return d?Eh(b):d}function
-ak(a){if(0===a[0])return a[1];throw Z}function
+c=T(CB,qG(a[1],a[2],a[3],a[4]));break;default:var
+c=T(CC,H(e(Cv,a[1])))}var
+h=[0,o(CH,c),g],i=1===b[2][0]?CN:CI,j=[0,o(CJ,av(i)),h],k=[0,o(CK,A7(b[1])),j],d=aI(mi(EK,h4(ak([0,o(CM,av(CL)),k]),CD)),l);return d?EB(b):d}function
+al(a){if(0===a[0])return a[1];throw Z}function
 ag(a){if(1===a[0])return a[1];throw Z}function
 a9(a){if(2===a[0])return a[1];throw Z}function
-gd(a){if(3===a[0])return a[1];throw Z}function
-bk(b,a){return l_(a,b)}function
+gl(a){if(3===a[0])return a[1];throw Z}function
+bl(b,a){return mh(a,b)}function
 w(c,b){var
-a=bk(c,b);if(a)return a[1];throw Z}function
-cw(b,a){var
+a=bl(c,b);if(a)return a[1];throw Z}function
+cA(b,a){var
 c=a?[0,h(b,a[1])]:a;return c}function
-eh(a){switch(a[0]){case
+eo(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],Eu]}throw Z}function
-ge(e,d){var
+2:return[0,a[1],EO]}throw Z}function
+gm(e,d){var
 a=Y(e,ag(d));if(a){var
 b=a[2];if(b){var
 c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw Z}function
-ig(i){var
-f=fg(i),d=[0,0],e=iM(f)-1|0;if(!(e<0)){var
+io(i){var
+f=fq(i),d=[0,0],e=iS(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=lN(f,c)-48|0;if(9<g>>>0)throw Z;switch(g){case
+a=d[1],g=lW(f,c)-48|0;if(9<g>>>0)throw Z;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -9083,48 +9212,48 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-gf(a){return mq(ig(a))}function
-e5(b){var
-a=gd(b);return 45===bd(a,0)?R(gf(er(a,1,aD(a)-1|0))):gf(a)}function
-re(a){return et(gf(gd(a)))}function
-dy(b){var
-a=gd(b);if(!(2<aD(a))&&!(64<=iL(a)))return iZ(gf(a));throw Z}function
-cZ(c){var
-a=gd(c);if(6<aD(a))throw Z;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(iL(a))}function
-rf(a){var
-b=97<=a?1:0,c=b?a<=s_?1:0:b;if(c)var
+gn(a){return mz(io(a))}function
+fc(b){var
+a=gl(b);return 45===bd(a,0)?R(gn(ey(a,1,aE(a)-1|0))):gn(a)}function
+rs(a){return eA(gn(gl(a)))}function
+dE(b){var
+a=gl(b);if(!(2<aE(a))&&!(64<=iR(a)))return i5(gn(a));throw Z}function
+c3(c){var
+a=gl(c);if(6<aE(a))throw Z;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(iR(a))}function
+rt(a){var
+b=97<=a?1:0,c=b?a<=tm?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-rg(y,b){var
-d=aD(b),a=[0,0];function
+ru(y,b){var
+d=aE(b),a=[0,0];function
 c(e){var
 c=a[1]<d?1:0,f=c?bd(b,a[1])===e?1:0:c;return f}function
 l(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=bd(b,a[1])&&!(57<bd(b,a[1]))){a[1]++;continue}return er(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=bd(b,a[1])&&!(57<bd(b,a[1]))){a[1]++;continue}return ey(b,c,a[1]-c|0)}}function
 m(b){a[1]++;var
 d=f(b+1|0);if(c(41)){a[1]++;return d}throw Z}function
 i(j){if(64<j)throw Z;if(c(45)){a[1]++;return[2,i(j+1|0)]}if(c(40))var
 e=m(j);else{var
-u=0;if((a[1]+5|0)<=d&&aG(er(b,a[1],5),Ew)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&aI(ey(b,a[1],5),EQ)){a[1]=a[1]+4|0;var
 e=[5,m(j)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&rf(bd(b,a[1]))){var
+v=0;if(a[1]<d&&rt(bd(b,a[1]))){var
 n=a[1];for(;;){if(a[1]<d){var
-w=0;if(!rf(bd(b,a[1]))&&95!==bd(b,a[1])&&(!(48<=bd(b,a[1]))||57<bd(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-e=[1,h(y,er(b,n,a[1]-n|0))];break}}else
+w=0;if(!rt(bd(b,a[1]))&&95!==bd(b,a[1])&&(!(48<=bd(b,a[1]))||57<bd(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+e=[1,h(y,ey(b,n,a[1]-n|0))];break}}else
 v=1;if(v){var
-g=l(0),o=c(46),q=o?(a[1]++,[0,l(0)]):o,r=aG(g,Ex);if(r)var
+g=l(0),o=c(46),q=o?(a[1]++,[0,l(0)]):o,r=aI(g,ER);if(r)var
 s=r;else
 var
-t=1<aD(g)?1:0,s=t?48===bd(g,0)?1:0:t;if(s)throw Z;if(q){var
-k=q[1],x=0;if(aG(k,Ey)||48===bd(k,aD(k)-1|0))x=1;else
+t=1<aE(g)?1:0,s=t?48===bd(g,0)?1:0:t;if(s)throw Z;if(q){var
+k=q[1],x=0;if(aI(k,ES)||48===bd(k,aE(k)-1|0))x=1;else
 var
-z=ig(k),e=[0,ig(g),z];if(x)throw Z}else
+z=io(k),e=[0,io(g),z];if(x)throw Z}else
 var
-e=[0,ig(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(p(f,Ev)){if(!(2<aD(f))&&2<=iL(f)&&!(64<iL(f)))return[4,e,et(gf(f))];throw Z}throw Z}return e}function
+e=[0,io(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(p(f,EP)){if(!(2<aE(f))&&2<=iR(f)&&!(64<iR(f)))return[4,e,eA(gn(f))];throw Z}throw Z}return e}function
 e(d){var
 b=i(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,i(d)];continue}if(c(47)){a[1]++;var
@@ -9134,55 +9263,55 @@ b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
 g=f(0);if(a[1]<d)throw Z;return g}function
-ih(a){return rg(function(a){return[0,a]},a)}function
-lj(a){var
-b=a9(a);return rg(function(a){return a},b)}function
-_(a){return ih(a9(a))}function
-ca(a){if(2===a[0])return[0,ih(a[1])];var
-b=ak(a),c=_(w(b,Ez));return[1,_(w(b,EA)),c]}function
-ap(a){throw[0,rd,bm(l$(EC,a),EB)]}function
-lk(c){var
-a=a9(c);if(p(a,ED)){var
-b=p(a,EE);if(b)throw Z;return b}return 1}function
-EF(d){var
-b=ak(d);function
-a(a){return ge(ca,w(b,a))}var
-c=a9(w(b,EG));if(p(c,EH)){if(p(c,EI)){if(p(c,EJ))return ap([0,EL,[0,c,EK]]);var
-e=bk(b,EM),f=cw(function(a){return ge(ca,a)},e),g=a(EN);return[1,a(EO),g,f]}var
-h=lk(w(b,EP)),i=ca(w(b,EQ)),j=a(ER),k=a(ES);return[0,a(ET),k,j,i,h]}return[2,a(EU)]}function
-EV(d){var
-a=ak(d);if(a){var
-b=a[1];if(!p(b[1],EW)){var
-c=b[2];if(2===c[0]&&!p(c[1],EX))return 1}}return 0}function
-rh(e){var
-b=ak(e);function
-a(a){return Y(ca,ag(w(b,a)))}var
-c=a9(w(b,EY)),f=bk(b,EZ),d=cw(function(a){return Y(ca,ag(a))},f);if(p(c,E0)){if(p(c,E1)){if(p(c,E2)){if(!p(c,E3)){var
-g=a(E6);return[1,a(E7),g,d]}}else
+ip(a){return ru(function(a){return[0,a]},a)}function
+ls(a){var
+b=a9(a);return ru(function(a){return a},b)}function
+_(a){return ip(a9(a))}function
+ce(a){if(2===a[0])return[0,ip(a[1])];var
+b=al(a),c=_(w(b,ET));return[1,_(w(b,EU)),c]}function
+ap(a){throw[0,rr,bn(mi(EW,a),EV)]}function
+lt(c){var
+a=a9(c);if(p(a,EX)){var
+b=p(a,EY);if(b)throw Z;return b}return 1}function
+EZ(d){var
+b=al(d);function
+a(a){return gm(ce,w(b,a))}var
+c=a9(w(b,E0));if(p(c,E1)){if(p(c,E2)){if(p(c,E3))return ap([0,E5,[0,c,E4]]);var
+e=bl(b,E6),f=cA(function(a){return gm(ce,a)},e),g=a(E7);return[1,a(E8),g,f]}var
+h=lt(w(b,E9)),i=ce(w(b,E_)),j=a(E$),k=a(Fa);return[0,a(Fb),k,j,i,h]}return[2,a(Fc)]}function
+Fd(d){var
+a=al(d);if(a){var
+b=a[1];if(!p(b[1],Fe)){var
+c=b[2];if(2===c[0]&&!p(c[1],Ff))return 1}}return 0}function
+rv(e){var
+b=al(e);function
+a(a){return Y(ce,ag(w(b,a)))}var
+c=a9(w(b,Fg)),f=bl(b,Fh),d=cA(function(a){return Y(ce,ag(a))},f);if(p(c,Fi)){if(p(c,Fj)){if(p(c,Fk)){if(!p(c,Fl)){var
+g=a(Fo);return[1,a(Fp),g,d]}}else
 if(!d){var
-h=lk(w(b,E8)),i=ca(w(b,E9)),j=a(E_),k=a(E$);return[0,a(Fa),k,j,i,h]}}else
-if(!d)return[2,a(Fb)]}else
+h=lt(w(b,Fq)),i=ce(w(b,Fr)),j=a(Fs),k=a(Ft);return[0,a(Fu),k,j,i,h]}}else
+if(!d)return[2,a(Fv)]}else
 if(!d){var
-l=lk(w(b,Fc)),m=ca(w(b,Fd)),n=ca(w(b,Fe)),o=a(Ff),q=a(Fg),r=a(Fh);return[3,a(Fi),r,q,o,n,m,l]}return ap([0,E5,[0,c,E4]])}function
-Fj(d){var
-a=ak(d);if(a){var
-b=a[1];if(!p(b[1],Fk)){var
-c=b[2];if(2===c[0]&&!p(c[1],Fl))return 1}}return 0}function
-Fm(d){var
-a=ak(d);if(a){var
-b=a[1];if(!p(b[1],Fn)){var
-c=b[2];if(2===c[0]&&!p(c[1],Fo))return 1}}return 0}function
-ri(d){var
-a=ak(d);if(a){var
-b=a[1];if(!p(b[1],Fp)){var
-c=b[2];if(2===c[0]&&!p(c[1],Fq))return 1}}return 0}function
-dz(c,d){var
+l=lt(w(b,Fw)),m=ce(w(b,Fx)),n=ce(w(b,Fy)),o=a(Fz),q=a(FA),r=a(FB);return[3,a(FC),r,q,o,n,m,l]}return ap([0,Fn,[0,c,Fm]])}function
+FD(d){var
+a=al(d);if(a){var
+b=a[1];if(!p(b[1],FE)){var
+c=b[2];if(2===c[0]&&!p(c[1],FF))return 1}}return 0}function
+FG(d){var
+a=al(d);if(a){var
+b=a[1];if(!p(b[1],FH)){var
+c=b[2];if(2===c[0]&&!p(c[1],FI))return 1}}return 0}function
+rw(d){var
+a=al(d);if(a){var
+b=a[1];if(!p(b[1],FJ)){var
+c=b[2];if(2===c[0]&&!p(c[1],FK))return 1}}return 0}function
+dF(c,d){var
 a=ag(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 e=h(c,b[1]);return[0,h(c,a[1]),e]}}throw Z}function
-ei(g,o){var
-h=g?g[1]:g,c=ak(o),a=a9(w(c,Fr)),j=tI(a,Fs),f=0;if(0<=j)if(0<j)if(p(a,Ft))if(p(a,Fu))if(p(a,Fv))if(p(a,Fw))if(p(a,Fx))if(p(a,Fy))if(p(a,Fz)){var
-k=p(a,FA);if(k)f=1;else
+ep(g,o){var
+h=g?g[1]:g,c=al(o),a=a9(w(c,FL)),j=tW(a,FM),f=0;if(0<=j)if(0<j)if(p(a,FN))if(p(a,FO))if(p(a,FP))if(p(a,FQ))if(p(a,FR))if(p(a,FS))if(p(a,FT)){var
+k=p(a,FU);if(k)f=1;else
 var
 b=k}else
 var
@@ -9202,7 +9331,7 @@ var
 b=13;else
 var
 b=2;else
-if(p(a,FV))if(p(a,FW))if(p(a,FX))if(p(a,FY))if(p(a,FZ))if(p(a,F0))if(p(a,F1))if(p(a,F2))f=1;else
+if(p(a,Gd))if(p(a,Ge))if(p(a,Gf))if(p(a,Gg))if(p(a,Gh))if(p(a,Gi))if(p(a,Gj))if(p(a,Gk))f=1;else
 var
 b=1;else
 var
@@ -9220,12 +9349,12 @@ b=14;else
 f=1;else
 var
 b=12;var
-n=f?ap([0,FC,[0,a,FB]]):b;function
-i(a){return w(c,FD)}var
-d=a9(w(c,FE)),l=p(d,FF);if(l)if(p(d,FG))if(p(d,FH))if(p(d,FI))var
-e=ap([0,FK,[0,d,FJ]]);else
+n=f?ap([0,FW,[0,a,FV]]):b;function
+i(a){return w(c,FX)}var
+d=a9(w(c,FY)),l=p(d,FZ);if(l)if(p(d,F0))if(p(d,F1))if(p(d,F2))var
+e=ap([0,F4,[0,d,F3]]);else
 var
-m=dz(_,i(0)),e=[2,m[1],m[2]];else
+m=dF(_,i(0)),e=[2,m[1],m[2]];else
 var
 e=[0,_(i(0))];else
 var
@@ -9233,117 +9362,117 @@ e=[1,_(i(0))];else
 var
 e=l;function
 q(H){var
-a=ak(H),b=0;switch(n){case
+a=al(H),b=0;switch(n){case
 6:if(a){var
-r=a[1];if(!p(r[1],FM)){var
+r=a[1];if(!p(r[1],F6)){var
 s=r[2];if(1===s[0]){var
 c=s[1],m=0;if(c&&!c[2])if(a[2])m=1;else{var
 e=c[1];b=1;m=1}if(!m&&!a[2]){var
 t=c;b=2}}}}break;case
 10:if(a){var
-u=a[1];if(!p(u[1],FN)){var
+u=a[1];if(!p(u[1],F7)){var
 v=u[2];if(1===v[0]){var
 f=v[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-w=g[1];if(!p(w[1],FO)){var
+w=g[1];if(!p(w[1],F8)){var
 x=w[2];if(1===x[0]){var
 i=x[1];if(i&&!i[2]&&!g[2]){var
 I=_(i[1]);return[2,_(f[1]),I]}}}}}}}}break;case
 12:if(a){var
-y=a[1];if(!p(y[1],FP)){var
+y=a[1];if(!p(y[1],F9)){var
 z=y[2];if(1===z[0]){var
 j=z[1];if(j&&!j[2]){var
 k=a[2],A=j[1];if(k){var
-B=k[1];if(!p(B[1],FQ)){var
+B=k[1];if(!p(B[1],F_)){var
 C=B[2];if(1===C[0]){var
 l=C[1];if(l&&!l[2]&&!k[2]&&h){var
 J=_(l[1]);return[3,_(A),J]}}}}else{var
 e=A;b=1}}}}}break;case
 16:if(a){var
-F=a[1];if(!p(F[1],FS)){var
+F=a[1];if(!p(F[1],Ga)){var
 G=F[2];if(1===G[0]&&!a[2]){var
 t=G[1];b=2}}}break;case
 14:case
 15:if(a){var
-D=a[1];if(!p(D[1],FR)){var
+D=a[1];if(!p(D[1],F$)){var
 E=D[2];if(1===E[0]&&!a[2])return[1,Y(_,E[1])]}}break;case
 2:case
 8:if(a){var
-o=a[1];if(!p(o[1],FL)){var
+o=a[1];if(!p(o[1],F5)){var
 q=o[2];if(1===q[0]){var
 d=q[1];if(d&&!d[2]&&!a[2]){var
 e=d[1];b=1}}}}break}switch(b){case
 0:throw Z;case
 1:return[0,_(e)];default:return[1,Y(_,t)]}}var
-r=cw(q,bk(c,FT));return[0,n,cw(cZ,bk(c,FU)),r,e]}function
-rj(c){var
-d=ei(F5,c),e=d[1];if(!(9<=e))switch(e){case
+r=cA(q,bl(c,Gb));return[0,n,cA(c3,bl(c,Gc)),r,e]}function
+rx(c){var
+d=ep(Gn,c),e=d[1];if(!(9<=e))switch(e){case
 2:case
 6:case
 8:return d}var
-a=ei(F3,c),b=a[1];if(2!==b&&!(4<=b))return a;return ap(F4)}function
-rk(a){var
-b=ei(F6,a);return 11===b[1]?b:rj(a)}function
-F7(a){var
-b=ei(F8,a);return 12===b[1]?b:rk(a)}function
-F9(a){var
-b=ei(F_,a),c=b[1];if(9<=c)switch(c-9|0){case
+a=ep(Gl,c),b=a[1];if(2!==b&&!(4<=b))return a;return ap(Gm)}function
+ry(a){var
+b=ep(Go,a);return 11===b[1]?b:rx(a)}function
+Gp(a){var
+b=ep(Gq,a);return 12===b[1]?b:ry(a)}function
+Gr(a){var
+b=ep(Gs,a),c=b[1];if(9<=c)switch(c-9|0){case
 2:case
 4:case
-7:break;default:return b}return rk(a)}function
-ll(c){var
-d=ei(F$,c),a=d[1];if(4<=a){var
+7:break;default:return b}return ry(a)}function
+lu(c){var
+d=ep(Gt,c),a=d[1];if(4<=a){var
 b=0;if(6<=a)switch(a-6|0){case
 4:case
 5:case
 6:case
 7:case
 10:b=1;break}else
-b=1;if(b)return d}return rj(c)}function
-lm(b){var
-a=ak(b[2]);if(p(b[1],Gg)){var
-c=dz(_,w(a,Gh)),d=dz(_,w(a,Gi)),e=d[2],f=d[1],g=_(w(a,Gj));return[1,c[1],c[2],g,f,e]}var
-h=Y(_,ag(w(a,Gk)));return[0,Y(_,ag(w(a,Gl))),h]}function
-Gm(f){var
-a=ak(f);function
+b=1;if(b)return d}return rx(c)}function
+lv(b){var
+a=al(b[2]);if(p(b[1],GA)){var
+c=dF(_,w(a,GB)),d=dF(_,w(a,GC)),e=d[2],f=d[1],g=_(w(a,GD));return[1,c[1],c[2],g,f,e]}var
+h=Y(_,ag(w(a,GE)));return[0,Y(_,ag(w(a,GF))),h]}function
+GG(f){var
+a=al(f);function
 d(b){return _(w(a,b))}function
-c(b){return ge(_,w(a,b))}var
-b=a9(w(a,Gn));if(p(b,Go)){if(!p(b,Gp)){var
-j=w(a,Gv),e=dz(function(a){return a},j),k=bk(a,Gw),l=cw(function(a){return c(Gx)},k),m=ih(a9(e[2])),n=ih(a9(e[1])),o=d(Gy);return[0,cZ(w(a,Gz)),o,n,m,l]}if(p(b,Gq))throw Z}var
-g=d(Gr),h=c(Gs),i=c(Gt);return[1,aG(b,Gu),i,h,g]}function
-ln(aF){var
-j=eh(aF),k=j[1];if(p(k,GA)){if(p(k,GB)){if(p(k,GC)){if(p(k,GD))return ap([0,GF,[0,k,GE]]);var
-C=w(ak(j[2]),GG),an=0;if(2===C[0]){var
-R=p(C[1],GH);if(!R){var
+c(b){return gm(_,w(a,b))}var
+b=a9(w(a,GH));if(p(b,GI)){if(!p(b,GJ)){var
+j=w(a,GP),e=dF(function(a){return a},j),k=bl(a,GQ),l=cA(function(a){return c(GR)},k),m=ip(a9(e[2])),n=ip(a9(e[1])),o=d(GS);return[0,c3(w(a,GT)),o,n,m,l]}if(p(b,GK))throw Z}var
+g=d(GL),h=c(GM),i=c(GN);return[1,aI(b,GO),i,h,g]}function
+lw(aF){var
+j=eo(aF),k=j[1];if(p(k,GU)){if(p(k,GV)){if(p(k,GW)){if(p(k,GX))return ap([0,GZ,[0,k,GY]]);var
+C=w(al(j[2]),G0),an=0;if(2===C[0]){var
+R=p(C[1],G1);if(!R){var
 Q=R;an=1}}if(!an)var
-Q=[0,ca(C)];return[6,Q]}var
-S=ak(j[2]),l=ln([0,[0,[0,GJ,w(S,GI)],0]]);if(0===l[0]){var
+Q=[0,ce(C)];return[6,Q]}var
+S=al(j[2]),l=lw([0,[0,[0,G3,w(S,G2)],0]]);if(0===l[0]){var
 D=l[2];if(0===D[0]&&!l[3]){var
-T=l[4];if(!aO(b$,T)){var
-aI=_(w(S,GL));return[5,l[1],D[1],D[2],T,aI]}}}return ap(GK)}var
-b=ak(j[2]),E=bk(b,GM),F=E?Y(Gm,ag(E[1])):E,s=function(b){var
-a=0!==F?1:0;return a?ap(GN):a},m=eh(w(b,GO)),c=eh(w(b,GP)),d=m[1];if(p(d,GQ)&&p(d,GR)&&p(d,GS)){if(0===bk(b,GT)){if(p(d,GU)){var
-ao=0;if(p(d,GV)){if(!p(d,GW)){var
-U=c[1],aq=0;if(p(U,GZ)&&p(U,G0)){ao=1;aq=1}if(!aq){var
-n=ag(m[2]),aJ=ag(w(b,G3)),G=Y(function(a){return ei(0,a)},aJ),aK=aO(function(a){switch(a[1]){case
-5:return 1-eq(Fj,n);case
-11:return aO(Fm,n);case
+T=l[4];if(!aP(cd,T)){var
+aG=_(w(S,G5));return[5,l[1],D[1],D[2],T,aG]}}}return ap(G4)}var
+b=al(j[2]),E=bl(b,G6),F=E?Y(GG,ag(E[1])):E,s=function(b){var
+a=0!==F?1:0;return a?ap(G7):a},m=eo(w(b,G8)),c=eo(w(b,G9)),d=m[1];if(p(d,G_)&&p(d,G$)&&p(d,Ha)){if(0===bl(b,Hb)){if(p(d,Hc)){var
+ao=0;if(p(d,Hd)){if(!p(d,He)){var
+U=c[1],aq=0;if(p(U,Hh)&&p(U,Hi)){ao=1;aq=1}if(!aq){var
+n=ag(m[2]),aH=ag(w(b,Hl)),G=Y(function(a){return ep(0,a)},aH),aK=aP(function(a){switch(a[1]){case
+5:return 1-ex(FD,n);case
+11:return aP(FG,n);case
 7:case
 9:case
 10:case
-12:return 1;default:return 0}},G);if(!aO(EV,n)){var
-ar=0;if(!aO(b$,G)||aK)ar=1;if(ar){var
-aN=Y(EF,n),i=ak(c[2]);if(p(c[1],Ga))var
-O=dz(_,w(i,Gb)),P=dz(_,w(i,Gc)),aB=P[2],aC=P[1],aD=_(w(i,Gd)),V=[1,O[1],O[2],aD,aC,aB];else
+12:return 1;default:return 0}},G);if(!aP(Fd,n)){var
+ar=0;if(!aP(cd,G)||aK)ar=1;if(ar){var
+aN=Y(EZ,n),i=al(c[2]);if(p(c[1],Gu))var
+O=dF(_,w(i,Gv)),P=dF(_,w(i,Gw)),aB=P[2],aC=P[1],aD=_(w(i,Gx)),V=[1,O[1],O[2],aD,aC,aB];else
 var
-aE=ge(_,w(i,Ge)),V=[0,ge(_,w(i,Gf)),aE];return[0,aN,V,F,G]}}s(0);var
-aL=Y(ll,ag(w(b,G4))),aM=lm(c);return[1,0,Y(rh,n),0,aM,0,aL]}}}else
-if(!p(c[1],G5)){s(0);var
-W=Y(ll,ag(w(b,G6))),z=0,g=W;for(;;){if(g){var
+aE=gm(_,w(i,Gy)),V=[0,gm(_,w(i,Gz)),aE];return[0,aN,V,F,G]}}s(0);var
+aL=Y(lu,ag(w(b,Hm))),aM=lv(c);return[1,0,Y(rv,n),0,aM,0,aL]}}}else
+if(!p(c[1],Hn)){s(0);var
+W=Y(lu,ag(w(b,Ho))),z=0,g=W;for(;;){if(g){var
 L=g[2],M=g[1];if(0===M[1]){var
 z=[0,M,z],g=L;continue}var
 g=L;continue}var
-q=iR(z),as=0;if(q){var
+q=iX(z),as=0;if(q){var
 e=0,X=q[1][4];if(typeof
 X==="number")e=1;else
 switch(X[0]){case
@@ -9358,89 +9487,89 @@ I=q[2];if(I){var
 K=0,aa=I[1][4];if(typeof
 aa!=="number"&&0===aa[0])if(I[2]){e=1;K=1}else
 K=1;if(!K)e=1}else
-e=1;break;default:e=1}if(!e)as=1}if(!as)ap(G7);var
-aP=_(w(ak(c[2]),G8));return[4,_(w(ak(m[2]),G9)),aP,W]}}if(!ao)return ap([0,GY,[0,d,GX]])}else
-if(!p(c[1],G_)){s(0);var
-t=ak(m[2]),ab=ak(c[2]),ac=function(c,a){var
+e=1;break;default:e=1}if(!e)as=1}if(!as)ap(Hp);var
+aO=_(w(al(c[2]),Hq));return[4,_(w(al(m[2]),Hr)),aO,W]}}if(!ao)return ap([0,Hg,[0,d,Hf]])}else
+if(!p(c[1],Hs)){s(0);var
+t=al(m[2]),ab=al(c[2]),ac=function(c,a){var
 b=ag(a);return Y(function(d){var
 a=ag(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 e=h(c,b[1]);return[0,a9(a[1]),e]}}throw Z},b)},aQ=function(d){var
-a=ak(d);if(a){var
-b=a[1],c=b[1];if(p(c,G$)){if(!p(c,Ha)&&!a[2])return[0,Y(lj,ag(b[2]))]}else
-if(!a[2])return[1,lj(b[2])]}throw Z},ad=ac(lj,w(t,Hb)),ae=Y(aQ,ag(w(t,Hc))),A=0,r=ae;for(;;){if(r){var
-B=r[1],au=r[2],av=0===B[0]?B[1]:[0,B[1],0],A=l8(av,A),r=au;continue}var
-aw=iR(A),f=function(b,a){switch(a[0]){case
+a=al(d);if(a){var
+b=a[1],c=b[1];if(p(c,Ht)){if(!p(c,Hu)&&!a[2])return[0,Y(ls,ag(b[2]))]}else
+if(!a[2])return[1,ls(b[2])]}throw Z},ad=ac(ls,w(t,Hv)),ae=Y(aQ,ag(w(t,Hw))),A=0,r=ae;for(;;){if(r){var
+B=r[1],au=r[2],av=0===B[0]?B[1]:[0,B[1],0],A=mf(av,A),r=au;continue}var
+aw=iX(A),f=function(b,a){switch(a[0]){case
 0:var
 c=1;break;case
 1:var
-d=l_(a[1],b),e=1,g=d?d[1]:e,c=g;break;case
+d=mh(a[1],b),e=1,g=d?d[1]:e,c=g;break;case
 3:var
 h=f(b,a[3]),c=(1+f(b,a[2])|0)+h|0;break;case
 4:var
-i=iQ(a[2]),c=lW(f(b,a[1]),i);break;default:var
-c=1+f(b,a[1])|0}return l5(32769,c)},ax=0,N=l9(function(b,a){var
-c=f(b,a[2]);return[0,[0,a[1],c],b]},ax,ad),ay=Y(function(a){return f(N,a)},aw),az=l6(Y(aH,N),ay),aA=0;if(32768<l9(function(b,a){return b+a|0},aA,az))ap([0,He,[0,a("32768"),Hd]]);var
-aR=Y(F7,ag(w(b,Hf))),aS=Y(_,ag(w(ab,Hg))),aT=Y(_,ag(w(ab,Hh))),aU=ac(ca,w(t,Hi));return[3,Y(a9,ag(w(t,Hj))),aU,ad,ae,aT,aS,aR]}}return ap([0,G2,[0,c[1],G1]])}throw Z}var
-af=ak(m[2]),u=cw(_,bk(af,Hk)),aV=function(f){var
-a=eh(f),b=a[1];if(p(b,Hl)){if(p(b,Hm)){if(p(b,Hn)){if(p(b,Ho))throw Z;var
-d=a[2],g=_(w(ak(d),Hp));return[3,_(w(ak(d),Hq)),g]}var
-h=a[2],c=function(a){return dz(_,w(ak(h),a))},i=c(Hr),j=c(Hs);return[1,c(Ht),j,i]}var
-e=dz(_,a[2]);return[0,e[1],e[2]]}return[2,_(a[2])]},v=cw(aV,bk(b,Hu)),ah=p(d,Hv),ai=ah?p(d,Hw)?2:1:ah,x=ag(w(af,Hx));if(u&&v&&eq(ri,x)){var
+i=iW(a[2]),c=l5(f(b,a[1]),i);break;default:var
+c=1+f(b,a[1])|0}return mc(32769,c)},ax=0,N=mg(function(b,a){var
+c=f(b,a[2]);return[0,[0,a[1],c],b]},ax,ad),ay=Y(function(a){return f(N,a)},aw),az=md(Y(aJ,N),ay),aA=0;if(32768<mg(function(b,a){return b+a|0},aA,az))ap([0,Hy,[0,a("32768"),Hx]]);var
+aR=Y(Gp,ag(w(b,Hz))),aS=Y(_,ag(w(ab,HA))),aT=Y(_,ag(w(ab,HB))),aU=ac(ce,w(t,HC));return[3,Y(a9,ag(w(t,HD))),aU,ad,ae,aT,aS,aR]}}return ap([0,Hk,[0,c[1],Hj]])}throw Z}var
+af=al(m[2]),u=cA(_,bl(af,HE)),aV=function(f){var
+a=eo(f),b=a[1];if(p(b,HF)){if(p(b,HG)){if(p(b,HH)){if(p(b,HI))throw Z;var
+d=a[2],g=_(w(al(d),HJ));return[3,_(w(al(d),HK)),g]}var
+h=a[2],c=function(a){return dF(_,w(al(h),a))},i=c(HL),j=c(HM);return[1,c(HN),j,i]}var
+e=dF(_,a[2]);return[0,e[1],e[2]]}return[2,_(a[2])]},v=cA(aV,bl(b,HO)),ah=p(d,HP),ai=ah?p(d,HQ)?2:1:ah,x=ag(w(af,HR));if(u&&v&&ex(rw,x)){var
 aW=function(c){var
-a=ak(c);function
-b(b){return Y(ca,ag(w(a,b)))}if(0!==bk(a,Hy))ap(Hz);var
-d=b(HA);return[0,b(HB),d]},aX=Y(F9,ag(w(b,HC))),aY=v[1],aZ=lm(c),a0=u[1];return[2,ai,Y(aW,x),a0,aZ,aY,F,aX]}s(0);var
-at=0;if(!u&&aG(d,HF)){var
+a=al(c);function
+b(b){return Y(ce,ag(w(a,b)))}if(0!==bl(a,HS))ap(HT);var
+d=b(HU);return[0,b(HV),d]},aX=Y(Gr,ag(w(b,HW))),aY=v[1],aZ=lv(c),a0=u[1];return[2,ai,Y(aW,x),a0,aZ,aY,F,aX]}s(0);var
+at=0;if(!u&&aI(d,HZ)){var
 aj=1;at=1}if(!at)var
 aj=[0,ai];var
-al=0!==v?1:0,a1=al?aO(ri,x):al;if(a1)ap(HD);var
-a2=Y(ll,ag(w(b,HE))),a3=lm(c);return[1,aj,Y(rh,x),u,a3,v,a2]}var
-y=ak(j[2]);function
+ak=0!==v?1:0,a1=ak?aP(rw,x):ak;if(a1)ap(HX);var
+a2=Y(lu,ag(w(b,HY))),a3=lv(c);return[1,aj,Y(rv,x),u,a3,v,a2]}var
+y=al(j[2]);function
 a4(b){var
-a=ak(b),c=_(w(a,HG)),d=[0,_(w(a,HH)),c];return[0,a9(w(a,HI)),d]}var
-o=ln([0,[0,[0,HK,w(y,HJ)],0]]);if(0===o[0]&&!o[3]){var
-am=o[4];if(!aO(b$,am)){var
-a5=_(w(y,HM)),a6=_(w(y,HN)),a7=o[2],a8=o[1];return[7,Y(a4,ag(w(y,HO))),a8,a7,am,a6,a5]}}return ap(HL)}function
-gg(a){return Y(e5,ag(a))}function
-ii(c,b){var
-a=gg(b);if(cD(a)!==c)throw Z;return a}function
-rl(a,d){var
-b=ak(d),e=ag(w(b,HR)),f=a[2],c=Y(function(a){return ii(f,a)},e),g=a[1];if(cD(c)!==g)throw Z;return[0,c,dy(w(b,HS))]}function
-dA(aw,i){var
-au=0;if(0===i[0]){var
+a=al(b),c=_(w(a,H0)),d=[0,_(w(a,H1)),c];return[0,a9(w(a,H2)),d]}var
+o=lw([0,[0,[0,H4,w(y,H3)],0]]);if(0===o[0]&&!o[3]){var
+am=o[4];if(!aP(cd,am)){var
+a5=_(w(y,H6)),a6=_(w(y,H7)),a7=o[2],a8=o[1];return[7,Y(a4,ag(w(y,H8))),a8,a7,am,a6,a5]}}return ap(H5)}function
+go(a){return Y(fc,ag(a))}function
+iq(c,b){var
+a=go(b);if(cH(a)!==c)throw Z;return a}function
+rz(a,d){var
+b=al(d),e=ag(w(b,H$)),f=a[2],c=Y(function(a){return iq(f,a)},e),g=a[1];if(cH(c)!==g)throw Z;return[0,c,dE(w(b,Ia))]}function
+dG(ax,i){var
+av=0;if(0===i[0]){var
 q=i[1];if(q){var
-V=q[1];if(!p(V[1],HT)){var
+V=q[1];if(!p(V[1],Ib)){var
 ai=V[2];if(0===ai[0]){var
 M=ai[1];if(M){var
-aj=M[1];if(!p(aj[1],Im)){var
-al=aj[2];if(1===al[0]){var
-N=al[1];if(N){var
+aj=M[1];if(!p(aj[1],IG)){var
+ak=aj[2];if(1===ak[0]){var
+N=ak[1];if(N){var
 am=N[1];if(1===am[0]){var
 an=am[1];if(an&&!an[2]&&!N[2]){var
 ao=M[2];if(ao&&!ao[2]&&!q[2]){var
-f=In;au=1}}}}}}}}}}}if(!au)var
-f=aw;var
+f=IH;av=1}}}}}}}}}}}if(!av)var
+f=ax;var
 r=f[2];switch(i[0]){case
 0:var
 c=i[1];if(c){var
-e=c[1],a=e[1],W=tI(a,HU),b=0;if(0<=W)if(0<W)if(p(a,HV)){var
-g=0;if(p(a,HW)&&p(a,HX)&&p(a,HY))if(p(a,HZ))g=1;else{var
+e=c[1],a=e[1],W=tW(a,Ic),b=0;if(0<=W)if(0<W)if(p(a,Id)){var
+g=0;if(p(a,Ie)&&p(a,If)&&p(a,Ig))if(p(a,Ih))g=1;else{var
 X=e[2];if(1===X[0]){var
 s=X[1];if(s){var
 t=s[2];if(t){var
 u=t[2];if(u&&!u[2]){if(!c[2]){var
-ax=Y(gg,ag(u[1])),ay=a9(t[1]);return[8,dA(f,s[1]),ay,ax]}b=1;g=1}else
+ay=Y(go,ag(u[1])),az=a9(t[1]);return[8,dG(f,s[1]),az,ay]}b=1;g=1}else
 g=1}else
 g=1}else
 g=1}else
 g=1}if(!g)if(c[2])b=1;else{var
-az=e[2],x=az,v=function(c,b){return[1,a,c,b]};b=2}}else{var
+aA=e[2],x=aA,v=function(c,b){return[1,a,c,b]};b=2}}else{var
 $=e[2];if(1===$[0]){var
 y=$[1];if(y){var
 z=y[2];if(z){var
 A=z[2];if(A&&!A[2]){if(!c[2]){var
-aB=dy(A[1]),aC=e5(z[1]);return[5,dA(f,y[1]),aC,aB]}b=1}}}}}else{var
+aB=dE(A[1]),aC=fc(z[1]);return[5,dG(f,y[1]),aC,aB]}b=1}}}}}else{var
 aa=e[2];if(1===aa[0]){if(!c[2]){var
 aD=function(x){if(1===x[0]){var
 i=x[1];if(i){var
@@ -9451,115 +9580,115 @@ m=l[1],b=m;for(;;){var
 n=0;switch(b[0]){case
 0:var
 c=b[1];if(c){var
-q=c[1],a=q[1];if(p(a,H2)){var
-y=0;if(p(a,H3)&&p(a,H4)&&p(a,H5)&&p(a,H6))y=1;if(!y&&!c[2])n=1}else{var
+q=c[1],a=q[1];if(p(a,Ik)){var
+y=0;if(p(a,Il)&&p(a,Im)&&p(a,In)&&p(a,Io))y=1;if(!y&&!c[2])n=1}else{var
 r=q[2];if(1===r[0]){var
 s=r[1];if(s&&!c[2]){var
 b=s[1];continue}}}}break;case
 2:var
-t=b[1];if(!p(t,H7)||!p(t,H8))n=1;break}var
+t=b[1];if(!p(t,Ip)||!p(t,Iq))n=1;break}var
 z=n?1:0;if(z){var
-A=dA(f,m),B=dy(k[1]),C=e5(j[1]),d=m,D=[0,[0,[0,gg(i[1]),C],B],A];for(;;){var
+A=dG(f,m),B=dE(k[1]),C=fc(j[1]),d=m,D=[0,[0,[0,go(i[1]),C],B],A];for(;;){var
 o=0;switch(d[0]){case
 0:var
 e=d[1];if(e){var
-u=e[1],h=u[1],g=0;if(p(h,H9))if(p(h,H_)){if(p(h,H$))g=1}else
+u=e[1],h=u[1],g=0;if(p(h,Ir))if(p(h,Is)){if(p(h,It))g=1}else
 if(e[2])g=1;else{o=1;g=1}if(!g){var
 v=u[2];if(1===v[0]){var
 w=v[1];if(w&&!e[2]){var
 d=w[1];continue}}}}break;case
-2:if(!p(d[1],Ia))o=1;break}var
-E=o?1:0;return[0,E,D]}}return ap(Ib)}}}}}}throw Z},B=Y(aD,aa[1]),ab=aO(aA,B),aE=ab?1-eq(aA,B):ab;if(aE)ap(Ic);return[9,Y(aH,B)]}b=1}}else
-if(p(a,Id))if(p(a,Ie))if(p(a,If))if(p(a,Ig))if(p(a,Ih)){if(!p(a,Ii)){if(!c[2]){var
-ac=ak(e[2]),aF=ag(w(ac,Ij)),aG=r+1|0,ad=Y(function(a){return ii(aG,a)},aF);if(3===cD(ad))return[1,Il,ad,dy(w(ac,Ik))];throw Z}b=1}}else{if(!c[2]){var
-S=a9(e[2]),T=p(S,HP);if(T){if(p(S,HQ))throw Z;var
+2:if(!p(d[1],Iu))o=1;break}var
+E=o?1:0;return[0,E,D]}}return ap(Iv)}}}}}}throw Z},B=Y(aD,aa[1]),ab=aP(at,B),aE=ab?1-ex(at,B):ab;if(aE)ap(Iw);return[9,Y(aJ,B)]}b=1}}else
+if(p(a,Ix))if(p(a,Iy))if(p(a,Iz))if(p(a,IA))if(p(a,IB)){if(!p(a,IC)){if(!c[2]){var
+ac=al(e[2]),aF=ag(w(ac,ID)),aG=r+1|0,ad=Y(function(a){return iq(aG,a)},aF);if(3===cH(ad))return[1,IF,ad,dE(w(ac,IE))];throw Z}b=1}}else{if(!c[2]){var
+S=a9(e[2]),T=p(S,H9);if(T){if(p(S,H_))throw Z;var
 U=1}else
 var
 U=T;return[2,U]}b=1}else{if(!c[2]){var
 k=e[2],o=0;switch(k[0]){case
 0:var
 l=k[1];if(l){var
-aq=l[1],j=aq[1],d=0;if(p(j,Io)&&p(j,Ip)&&p(j,Iq)&&p(j,Ir))if(p(j,Is))d=1;else{var
+aq=l[1],j=aq[1],d=0;if(p(j,II)&&p(j,IJ)&&p(j,IK)&&p(j,IL))if(p(j,IM))d=1;else{var
 ar=aq[2];if(1===ar[0]){var
 O=ar[1];if(O){var
 m=O[1],h=0;switch(m[0]){case
 0:var
 P=m[1];if(P){var
-n=P[1][1],av=0;if(p(n,Iu)&&p(n,Iv)&&p(n,Iw)&&p(n,Ix)){d=1;h=1;av=1}if(!av&&P[2]){d=1;h=1}}else{d=1;h=1}break;case
+n=P[1][1],aw=0;if(p(n,IO)&&p(n,IP)&&p(n,IQ)&&p(n,IR)){d=1;h=1;aw=1}if(!aw&&P[2]){d=1;h=1}}else{d=1;h=1}break;case
 2:var
-as=m[1];if(p(as,Iy)&&p(as,Iz)){d=1;h=1}break;default:d=1;h=1}if(!h){var
+as=m[1];if(p(as,IS)&&p(as,IT)){d=1;h=1}break;default:d=1;h=1}if(!h){var
 Q=O[2];if(Q){var
 R=Q[2];if(R&&!(R[2]||l[2])){var
-aR=dy(R[1]),aS=e5(Q[1]),C=[6,dA(f,m),aS,aR];o=2;d=1}else
+aR=dE(R[1]),aS=fc(Q[1]),C=[6,dG(f,m),aS,aR];o=2;d=1}else
 d=1}else
 d=1}}else
 d=1}else
 d=1}if(!d&&!l[2])o=1}break;case
 2:var
-at=k[1];if(!p(at,IA)||!p(at,IB))o=1;break}switch(o){case
+au=k[1];if(!p(au,IU)||!p(au,IV))o=1;break}switch(o){case
 0:var
-C=ap(It);break;case
+C=ap(IN);break;case
 1:var
-C=dA(f,k);break}return[7,C]}b=1}else{var
+C=dG(f,k);break}return[7,C]}b=1}else{var
 ae=e[2];if(1===ae[0]){var
 D=ae[1];if(D){var
 E=D[2];if(E&&!E[2])if(c[2])b=1;else{var
-aI=E[1],aJ=D[1],x=aJ,v=function(b,a){return[3,b,a,ii(r+1|0,aI)]};b=2}}}}else{var
+aH=E[1],aI=D[1],x=aI,v=function(b,a){return[3,b,a,iq(r+1|0,aH)]};b=2}}}}else{var
 af=e[2];if(1===af[0]){var
 F=af[1];if(F){var
 G=F[2];if(G){var
 H=G[2];if(H){var
 I=H[2];if(I&&!I[2]){if(!c[2]){var
-aK=dA(f,I[1]),aL=dA(f,H[1]),aM=dy(G[1]);return[10,ii(r+1|0,F[1]),aM,aL,aK]}b=1}}}}}}else{var
+aK=dG(f,I[1]),aL=dG(f,H[1]),aM=dE(G[1]);return[10,iq(r+1|0,F[1]),aM,aL,aK]}b=1}}}}}}else{var
 ah=e[2];if(1===ah[0]){var
 J=ah[1];if(J){var
 K=J[2];if(K){var
 L=K[2];if(L&&!L[2])if(c[2])b=1;else{var
-aN=L[1],aP=K[1],aQ=J[1],x=aQ,v=function(b,a){var
-c=dy(aN);return[4,b,a,e5(aP),c]};b=2}}}}}switch(b){case
-0:if(!c[2])return ap([0,H1,[0,a,H0]]);break;case
+aN=L[1],aO=K[1],aQ=J[1],x=aQ,v=function(b,a){var
+c=dE(aN);return[4,b,a,fc(aO),c]};b=2}}}}}switch(b){case
+0:if(!c[2])return ap([0,Ij,[0,a,Ii]]);break;case
 1:break;default:var
-_=rl(f,x);return v(_[1],_[2])}}break;case
+_=rz(f,x);return v(_[1],_[2])}}break;case
 2:return[0,i[1]]}throw Z}function
-rm(n){var
-b=eh(n),a=b[1];if(p(a,IE))if(p(a,IF)){var
-h=p(a,IG);if(!h)return h;if(p(a,IH)){if(!p(a,II)){var
-c=ak(b[2]),i=function(a){return Y(_,ag(w(c,a)))},j=ak(w(c,IM)),o=dy(w(j,IN)),q=Y(gg,ag(w(j,IO))),r=i(IP),s=i(IQ);return[3,cZ(w(c,IR)),s,r,q,o]}if(!p(a,IJ))return[2,Y(_,ag(b[2]))]}else{var
+rA(n){var
+b=eo(n),a=b[1];if(p(a,IY))if(p(a,IZ)){var
+h=p(a,I0);if(!h)return h;if(p(a,I1)){if(!p(a,I2)){var
+c=al(b[2]),i=function(a){return Y(_,ag(w(c,a)))},j=al(w(c,I6)),o=dE(w(j,I7)),q=Y(go,ag(w(j,I8))),r=i(I9),s=i(I_);return[3,c3(w(c,I$)),s,r,q,o]}if(!p(a,I3))return[2,Y(_,ag(b[2]))]}else{var
 k=b[2];if(1===k[0]){var
 d=k[1];if(d){var
 e=d[2];if(e&&!e[2]){var
-t=cZ(e[1]);return[1,cZ(d[1]),t]}}}}}else{var
+t=c3(e[1]);return[1,c3(d[1]),t]}}}}}else{var
 l=b[2];if(1===l[0]){var
 f=l[1];if(f){var
 g=f[2];if(g&&!g[2]){var
-u=Y(gg,ag(g[1]));return[0,cZ(f[1]),u]}}}}else{var
-m=b[2];if(1===m[0]&&!m[1])return 1}return ap([0,IL,[0,a,IK]])}function
-rn(f,b){var
-a=ak(b),c=ag(w(a,IW)),d=Y(function(g){var
-a=ak(g);function
+u=Y(go,ag(g[1]));return[0,c3(f[1]),u]}}}}else{var
+m=b[2];if(1===m[0]&&!m[1])return 1}return ap([0,I5,[0,a,I4]])}function
+rB(f,b){var
+a=al(b),c=ag(w(a,Je)),d=Y(function(g){var
+a=al(g);function
 b(d,c){var
-b=bk(a,c);return b?Y(d,ag(b[1])):b}var
-c=b(e5,IS),d=cw(rm,bk(a,IT)),e=cw(cZ,bk(a,IU));return[0,b(function(h){var
+b=bl(a,c);return b?Y(d,ag(b[1])):b}var
+c=b(fc,Ja),d=cA(rA,bl(a,Jb)),e=cA(c3,bl(a,Jc));return[0,b(function(h){var
 b=ag(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!p(c[1],IC)){if(!a[2]){if(p(gd(e),ID))throw Z;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!p(c[1],IW)){if(!a[2]){if(p(gl(e),IX))throw Z;d=1}}else
 d=1;if(d&&!a[2]){var
-g=dA(f,c);return[0,cZ(e),g]}}}throw Z},IV),e,d,c]},c),e=bk(a,IX),g=cw(function(a){return rl(f,a)},e);return[0,re(w(a,IY)),g,d]}function
-ro(c){var
-a=ak(c),b=bk(a,IZ),d=b?Y(_,ag(b[1])):b,e=rm(w(a,I0)),f=Y(_,ag(w(a,I1)));return[0,re(w(a,I2)),f,d,e]}function
-Ja(c){var
+g=dG(f,c);return[0,c3(e),g]}}}throw Z},Jd),e,d,c]},c),e=bl(a,Jf),g=cA(function(a){return rz(f,a)},e);return[0,rs(w(a,Jg)),g,d]}function
+rC(c){var
+a=al(c),b=bl(a,Jh),d=b?Y(_,ag(b[1])):b,e=rA(w(a,Ji)),f=Y(_,ag(w(a,Jj)));return[0,rs(w(a,Jk)),f,d,e]}function
+Ju(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-Jb(b){var
+Jv(b){var
 a=b[3];if(a&&1===a[1][0])return 1;return 0}function
-Jc(b){var
-c=b[1],a=b[4];if(!(1<c+sh>>>0)&&typeof
-a!=="number"&&1===a[0])return 1-hE(k(a[1]));return 10===c?1:0}function
-Jg(f){var
-i=aD(f),b=[0,0];function
+Jw(b){var
+c=b[1],a=b[4];if(!(1<c+sv>>>0)&&typeof
+a!=="number"&&1===a[0])return 1-hL(k(a[1]));return 10===c?1:0}function
+JA(f){var
+i=aE(f),b=[0,0];function
 j(a){if(b[1]<i)return bd(f,b[1]);throw Z}function
 k(a){if(j(0)===a){b[1]++;return 0}throw Z}function
-B(a,c){for(;;){if(b[1]<i&&h(c,bd(f,b[1]))){b[1]++;continue}return er(f,a,b[1]-a|0)}}function
+B(a,c){for(;;){if(b[1]<i&&h(c,bd(f,b[1]))){b[1]++;continue}return ey(f,a,b[1]-a|0)}}function
 C(d){k(34);function
 a(a){var
 b=34!==a?1:0;if(b)var
@@ -9570,7 +9699,7 @@ c=B(b[1],a);k(34);return c}function
 D(e,a){if(j(0)===a){b[1]++;return 0}var
 c=0;for(;;){var
 d=[0,h(e,0),c];if(44===j(0)){b[1]++;var
-c=d;continue}k(a);return iR(d)}}function
+c=d;continue}k(a);return iX(d)}}function
 r(c,l){if(64<c)throw Z;var
 a=j(0),d=0;if(48<=a){if(91===a){b[1]++;var
 f=93,g=c+1|0;return[1,D(function(a){return r(g,a)},f)]}if(123===a){b[1]++;var
@@ -9578,10 +9707,10 @@ h=125;return[0,D(function(b){var
 a=C(0);k(58);return[0,a,r(c+1|0,0)]},h)]}if(!(58<=a))d=1}else{if(34===a)return[2,C(0)];if(45===a)d=1}if(d){var
 i=b[1];b[1]++;var
 e=B(i,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c});if(p(e,Et))return[3,e];throw Z}throw Z}var
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c});if(p(e,EN))return[3,e];throw Z}throw Z}var
 R=r(0,0),E=b[1]<i?1:0,S=E?10===bd(f,b[1])?1:0:E;if(S)b[1]++;if(b[1]<i)throw Z;var
-o=ak(R);if(p(a9(w(o,Jh)),Ji))throw Z;var
-a=ln(w(o,Jj)),x=0;switch(a[0]){case
+o=al(R);if(p(a9(w(o,JB)),JC))throw Z;var
+a=lw(w(o,JD)),x=0;switch(a[0]){case
 1:var
 u=a[1],y=0;if(typeof
 u==="number")if(u)var
@@ -9591,49 +9720,49 @@ if(1===u[1])var
 v=6;else
 y=1;if(y)var
 v=3;var
-e=[0,cD(a[2]),v];break;case
+e=[0,cH(a[2]),v];break;case
 2:var
-ai=1===a[1]?6:3,e=[0,cD(a[2]),ai];break;case
+ai=1===a[1]?6:3,e=[0,cH(a[2]),ai];break;case
 3:var
-aj=cD(a[1]),e=[0,cD(a[4]),aj];break;case
+aj=cH(a[1]),e=[0,cH(a[4]),aj];break;case
 7:var
 F=a[2];x=1;break;case
 0:case
 5:var
 F=a[1];x=1;break;default:var
-e=JB}if(x)var
-e=[0,cD(F),3];var
-l=eh(w(o,Jk)),m=l[1];if(p(m,I7))if(p(m,I8))if(p(m,I9))var
-c=ap([0,I$,[0,m,I_]]);else
+e=JV}if(x)var
+e=[0,cH(F),3];var
+l=eo(w(o,JE)),m=l[1];if(p(m,Jp))if(p(m,Jq))if(p(m,Jr))var
+c=ap([0,Jt,[0,m,Js]]);else
 var
-n=ro(l[2]),c=[1,n[1],n[2],n[3],n[4]];else
+n=rC(l[2]),c=[1,n[1],n[2],n[3],n[4]];else
 var
-s=rn(e,l[2]),c=[0,s[1],s[2],s[3]];else
+s=rB(e,l[2]),c=[0,s[1],s[2],s[3]];else
 var
 T=ag(l[2]),c=[2,Y(function(g){var
-a=eh(g),b=a[1];if(p(b,I3)){if(p(b,I4)){if(p(b,I5)){var
-f=p(b,I6);if(f)throw Z;return f}return[0,cZ(a[2])]}var
-c=ro(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=rn(e,a[2]);return[1,d[1],d[2],d[3]]},T)];function
+a=eo(g),b=a[1];if(p(b,Jl)){if(p(b,Jm)){if(p(b,Jn)){var
+f=p(b,Jo);if(f)throw Z;return f}return[0,c3(a[2])]}var
+c=rC(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=rB(e,a[2]);return[1,d[1],d[2],d[3]]},T)];function
 U(a){return 10===a[1]?1:0}function
-G(a){return aO(U,a)}function
+G(a){return aP(U,a)}function
 V(a){return 0!==a[3]?1:0}function
-H(a){return aO(V,a)}var
+H(a){return aP(V,a)}var
 d=0;switch(a[0]){case
 0:if(0===c[0]){var
 J=a[4],I=a[1];d=3}else
 d=2;break;case
 1:if(0===c[0]){var
-_=c[3];if(aO(function(a){var
-b=a[1];return aO(function(a){switch(a[2][0]){case
+_=c[3];if(aP(function(a){var
+b=a[1];return aP(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},_))ap(Js);else{var
+7:return 1;default:return 0}},b)},_))ap(JM);else{var
 O=0;if(G(a[6])){var
-$=a[2];if(aO(function(a){return 2===a[0]?1:0},$)){ap(Jt);O=1}}if(!O)d=1}}else
+$=a[2];if(aP(function(a){return 2===a[0]?1:0},$)){ap(JN);O=1}}if(!O)d=1}}else
 d=2;break;case
 2:var
 L=a[1],aa=a[7];if(0===c[0]){var
-ab=1===L?6:3,M=cD(a[2])===ab?1:0;if(M){var
+ab=1===L?6:3,M=cH(a[2])===ab?1:0;if(M){var
 P=0;if(2<=L||!(0===a[4][0]))P=1;else
 var
 t=1;if(P)var
@@ -9643,74 +9772,74 @@ t=M;var
 N=function(c){if(8===c[0]){var
 d=c[1];if(7===d[0]){var
 a=d[1],b=0;switch(a[0]){case
-1:if(!p(a[1],Ju))b=1;break;case
+1:if(!p(a[1],JO))b=1;break;case
 6:var
-e=a[1];if(1===e[0]&&!p(e[1],Jv))b=1;break}if(b)return t}}return 0},ac=function(a){if(a[1])switch(a[2][0]){case
+e=a[1];if(1===e[0]&&!p(e[1],JP))b=1;break}if(b)return t}}return 0},ac=function(a){if(a[1])switch(a[2][0]){case
 8:case
 9:return 1}else{var
 b=a[2];switch(b[0]){case
 8:return 1-N(b);case
 9:var
-c=b[1];return 1-eq(function(a){return N(a[2])},c)}}return 0},ad=c[3],al=0;if(aO(function(a){return aO(ac,a[1])},ad))ap(Jw);else{var
-ae=c[3];if(eq(function(a){var
-b=a[1];return eq(function(d){var
+c=b[1];return 1-ex(function(a){return N(a[2])},c)}}return 0},ad=c[3],ak=0;if(aP(function(a){return aP(ac,a[1])},ad))ap(JQ);else{var
+ae=c[3];if(ex(function(a){var
+b=a[1];return ex(function(d){var
 b=d[2],a=0;switch(b[0]){case
 0:var
-c=b[1];if(p(c,Jd)){if(!p(c,Je))return aO(Jc,aa)}else
+c=b[1];if(p(c,Jx)){if(!p(c,Jy))return aP(Jw,aa)}else
 a=1;break;case
-1:if(!p(b[1],Jf))a=1;break;case
+1:if(!p(b[1],Jz))a=1;break;case
 7:case
 8:case
-9:a=1;break}return a?1:0},b)},ae)){d=1;al=1}else
-ap(Jx)}}else
+9:a=1;break}return a?1:0},b)},ae)){d=1;ak=1}else
+ap(JR)}}else
 d=2;break;case
-5:if(aO(Ja,a[4]))ap(Jy);else
+5:if(aP(Ju,a[4]))ap(JS);else
 if(0===c[0]){var
-af=c[3];if(aO(function(a){return 0!==a[1]?1:0},af))ap(Jz);else
+af=c[3];if(aP(function(a){return 0!==a[1]?1:0},af))ap(JT);else
 d=1}else
 d=1;break;case
 7:var
 z=0;if(2===c[0]){var
-ah=c[1];if(aO(function(a){if(typeof
+ah=c[1];if(aP(function(a){if(typeof
 a!=="number"&&2===a[0]){var
 b=a[4];if(typeof
-b!=="number"&&3===b[0])return 1}return 0},ah))ap(JA);else
+b!=="number"&&3===b[0])return 1}return 0},ah))ap(JU);else
 z=1}else
 z=1;if(z){var
 J=a[4],I=a[2];d=3}break;default:d=1}var
 q=0;switch(d){case
 0:break;case
 3:var
-Q=0;if(G(J)&&aO(function(a){return 2===a[0]?1:0},I)){ap(Jl);Q=1}if(!Q)q=2;break;case
+Q=0;if(G(J)&&aP(function(a){return 2===a[0]?1:0},I)){ap(JF);Q=1}if(!Q)q=2;break;case
 1:q=2;break;default:q=1}var
 A=0;switch(q){case
 2:var
 g=0;switch(a[0]){case
 5:case
-7:if(aO(Jb,a[4])){ap(Jq);g=1}else
+7:if(aP(Jv,a[4])){ap(JK);g=1}else
 if(7===a[0])switch(c[0]){case
 2:var
 X=function(a){if(typeof
-a!=="number"&&1===a[0])return H(a[3]);return 0};if(aO(X,c[1]))ap(Jr);g=1;break;case
+a!=="number"&&1===a[0])return H(a[3]);return 0};if(aP(X,c[1]))ap(JL);g=1;break;case
 0:break;default:A=1;g=1}else
-g=1;break}if(!g)if(0===c[0]&&H(c[3]))ap(Jp);else
+g=1;break}if(!g)if(0===c[0]&&H(c[3]))ap(JJ);else
 A=1;break;case
 1:A=1;break}var
-K=ak(w(o,Jm)),W=a9(w(K,Jn));return[0,a,c,a9(w(K,Jo)),W]}function
-JC(b){var
-a=0,f=l5(64,aD(b))-18|0;for(;;){var
+K=al(w(o,JG)),W=a9(w(K,JH));return[0,a,c,a9(w(K,JI)),W]}function
+JW(b){var
+a=0,f=mc(64,aE(b))-18|0;for(;;){var
 c=a<=f?1:0;if(c){var
-d=aG(er(b,a,18),JD);if(!d){var
+d=aI(ey(b,a,18),JX);if(!d){var
 a=a+1|0;continue}var
 e=d}else
 var
-e=c;return e}}Ll(function(b){try{if(JC(b))var
-a=JF;else{try{var
-e=0,d=Jg(b);e=1}catch(a){a=tK(a);if(a[1]===rd)var
+e=c;return e}}LG(function(b){try{if(JW(b))var
+a=JZ;else{try{var
+e=0,d=JA(b);e=1}catch(a){a=tY(a);if(a[1]===rr)var
 c=[0,a[2]];else{if(a!==Z)throw a;var
 c=2}}if(e)var
-c=Ep(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return JE}if(typeof
+c=EJ(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return JY}if(typeof
 a==="number")switch(a){case
-0:return JG;case
-1:return JH;default:return JI}return bm(JJ,a[1])});l7(0);return}(globalThis));
+0:return J0;case
+1:return J1;default:return J2}return bn(J3,a[1])});me(0);return}(globalThis));
