@@ -6,7 +6,7 @@
 
 From Coq Require Import ZArith NArith Reals List.
 From Orthocert Require Import Claim.
-From Orthocert.kernel Require Import Statement Check Problem.
+From Orthocert.kernel Require Import Formula Tolerances Statement Check Problem.
 Import ListNotations.
 
 Definition point (x y z : Z) : tolerances := Tolerances (exactly (x // 1)) (exactly (y // 1)) (exactly (z // 1)).
@@ -110,3 +110,26 @@ Example four_joints : check_claim 32 (claim_of (sliders ++ [PlanarLeg (point 0 0
   (Leaf [(0, ByRank 0 [[1; 0; 0]; [0; 1; 0]; [0; 0; 1]; [0; 0; 0]]%Z); (1, ByAccuracy 3 [[8; 0; 0]; [0; 8; 0]; [0; 0; 8]; [0; 0; 1]]%Z 1%Z 0%N)]%nat) = false.
 Proof. vm_cast_no_check (eq_refl false). Qed.
 End Errors.
+
+(** Tolerances of second order: of parameters in [-1, 1], from the one machine in the middle, where the product of two has no derivative. *)
+Module OfSecondOrder.
+Definition between (f : formula) (ends : list (nat * choice)) (curved : list nat) : bool :=
+  let tape := compile [f] in let cell := [Fixed.integer 32 1] in let params := repeat (Fixed.Fixed (- 2 ^ 32) (2 ^ 32)) 2 in
+  shows_on 32 tape [] [] [] params (fun _ => None) (evaluate 32 tape params cell) cell (AtLeast (place (formulas tape) f)) (ByTolerances ByTest ends curved []).
+Definition middle : list (nat * choice) := [(0, FromMiddle); (1, FromMiddle)]%nat.
+Definition product (n : Z) : formula := F (Add (F (Mul (F (Param 0)) (F (Param 1)))) (integer n)).
+Definition less_square (n : Z) : formula := F (Sub (integer n) (F (Sqr (F (Param 0))))).
+Example of_both : between (product 2) middle [0; 1]%nat = true. Proof. vm_cast_no_check (eq_refl true). Qed.
+Example not_so : between (product 1) middle [0; 1]%nat = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example of_one : between (product 2) middle [1]%nat = true. Proof. vm_cast_no_check (eq_refl true). Qed.
+Example of_none : between (product 3) middle [] = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example that_much : between (product 4) middle [] = true. Proof. vm_cast_no_check (eq_refl true). Qed.
+(** Half the square of a step is exact. *)
+Example square : between (less_square 1) middle [0]%nat = true. Proof. vm_cast_no_check (eq_refl true). Qed.
+Example more_than_square : between (less_square 0) middle [0]%nat = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example square_of_none : between (less_square 3) middle [] = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example from_the_end : between (less_square 1) [(0, FromGreatest); (1, FromLeast)]%nat [0]%nat = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+(** Of no parameter that is apart, and of one twice. *)
+Example of_another : between (product 9) (firstn 1 middle) [1]%nat = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example twice : between (product 9) middle [0; 0]%nat = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+End OfSecondOrder.
