@@ -187,10 +187,7 @@ impl Problem {
     }
 
     fn derivatives(&self) -> Option<Derived> {
-        let is_by = |op: &Op| match *op {
-            Op::Parameter(j) => self.inputs.get(j).is_some_and(Input::differs),
-            _ => false,
-        };
+        let differs = |j: usize| self.inputs.get(j).is_some_and(Input::differs);
         if !self.inputs.iter().any(Input::differs) {
             return None;
         }
@@ -199,23 +196,9 @@ impl Problem {
         let others = others.chain(self.inside.as_ref().map(|inside| inside.g));
         let formulas: BTreeSet<Formula> =
             rows.iter().flatten().flatten().copied().chain(others).collect();
-        let (mut tape, mut of) = (self.tape.clone(), HashMap::new());
-        let (zero, mut spent) = (tape.integer(0), 0usize);
+        let (mut tape, mut of, mut spent) = (self.tape.clone(), HashMap::new(), 0);
         for formula in formulas {
-            let parts = tape.parts(&[formula]);
-            let ops = || parts.iter().zip(tape.ops()).filter(|(&part, _)| part).map(|(_, &op)| op);
-            let own: Vec<Op> = ops().filter(is_by).collect();
-            spent = spent.saturating_add(own.len().saturating_mul(ops().count()));
-            if spent > MOST_DERIVATIVES {
-                return None;
-            }
-            let derivatives = tape.derivatives(formula, &own);
-            let each = own.into_iter().zip(derivatives);
-            let each = each.filter_map(|(op, derivative)| match op {
-                Op::Parameter(j) if derivative != zero => Some((j, derivative)),
-                _ => None,
-            });
-            of.insert(formula, each.collect());
+            of.insert(formula, by_parameters(&mut tape, formula, differs, &mut spent)?);
         }
         let changes = changes(&rows, &of);
         let few = tape.ops().len() <= MOST_DERIVED && changes.iter().all(|&n| n <= MOST_CHANGES);
@@ -244,26 +227,14 @@ impl Problem {
         if by.is_empty() {
             return None;
         }
-        let (mut tape, mut of) = (own.tape.clone(), HashMap::new());
-        let (zero, mut spent) = (tape.integer(0), 0usize);
+        let (mut tape, mut of, mut spent) = (own.tape.clone(), HashMap::new(), 0);
         let formulas: BTreeSet<&Formula> = own.of.keys().collect();
         for formula in formulas {
             let mut all: Vec<([usize; 2], Formula)> = Vec::new();
-            let derivatives = own.of.get(formula)?.iter().filter(|(j, _)| by.contains(j));
-            for &(j, derivative) in derivatives {
-                let parts = tape.parts(&[derivative]);
-                let ops = || parts.iter().zip(tape.ops()).filter(|(&part, _)| part);
-                let later = |op: &Op| matches!(op, Op::Parameter(l) if *l >= j && by.contains(l));
-                let with: Vec<Op> = ops().map(|(_, &op)| op).filter(later).collect();
-                spent = spent.saturating_add(with.len().saturating_mul(ops().count()));
-                if spent > MOST_DERIVATIVES {
-                    return None;
-                }
-                let second = tape.derivatives(derivative, &with);
-                all.extend(with.into_iter().zip(second).filter_map(|(op, second)| match op {
-                    Op::Parameter(l) if second != zero => Some(([j, l], second)),
-                    _ => None,
-                }));
+            for &(j, derivative) in own.of.get(formula)?.iter().filter(|(j, _)| by.contains(j)) {
+                let later = |l: usize| l >= j && by.contains(&l);
+                let second = by_parameters(&mut tape, derivative, later, &mut spent)?;
+                all.extend(second.into_iter().map(|(l, second)| ([j, l], second)));
             }
             of.insert(*formula, all);
         }
@@ -524,6 +495,30 @@ fn inside(builder: &mut Builder, claim: &MachineClaim) -> Option<Inside> {
     }
     let gradient = builder.tape.gradient(g, &coordinates(3)).numerators;
     Some(Inside { g, gradient })
+}
+
+/// The derivatives of a formula by these parameters, but those that are zero; none where, with what is spent, they take too
+/// many operations.
+fn by_parameters(
+    tape: &mut Tape,
+    formula: Formula,
+    is_by: impl Fn(usize) -> bool,
+    spent: &mut usize,
+) -> Option<Vec<(usize, Formula)>> {
+    let zero = tape.integer(0);
+    let parts = tape.parts(&[formula]);
+    let ops = || parts.iter().zip(tape.ops()).filter(|(&part, _)| part).map(|(_, &op)| op);
+    let by: Vec<Op> = ops().filter(|op| matches!(*op, Op::Parameter(j) if is_by(j))).collect();
+    *spent = spent.saturating_add(by.len().saturating_mul(ops().count()));
+    if *spent > MOST_DERIVATIVES {
+        return None;
+    }
+    let each = by.iter().zip(tape.derivatives(formula, &by));
+    let known = each.filter_map(|(op, derivative)| match *op {
+        Op::Parameter(j) if derivative != zero => Some((j, derivative)),
+        _ => None,
+    });
+    Some(known.collect())
 }
 
 /// For each obligation how many of its rows times what they differ by there are.

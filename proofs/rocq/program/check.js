@@ -560,7 +560,7 @@ for (const [name, edits, from, to] of [
   agrees(file, own[1]);
   if (!apart || own.some((answer) => answer !== "CERTIFIED")) fail(`apart, ${name}: ${own}, ${apart} times`);
   read.push(last_number((b) => text.replace(from[0], (all) => all.replace(from[1], `"${b}"`)), from[2], to, 12, `apart, ${name}`));
-  for (const [from, to] of [[/(\{"tolerances":\[.*?,")([-+0])/, (_, all, end) => `${all}${end === "+" ? "-" : "+"}`], [/(\{"tolerances":\[.*?,"[-+0])/, "$1+"], [/(\{"tolerances":\[.*?,"[-+0]*",\[\[)/, "$10,"], [/(\{"tolerances":\[.*?,"[-+0]*",\[\[)-?(\d)/, "$19$2"]]) {
+  for (const [from, to] of [[/(\{"tolerances":\[.*?,")([-+0<=>])/, (_, all, end) => `${all}${end === "+" ? "-" : "+"}`], [/(\{"tolerances":\[.*?,"[-+0<=>])/, "$1+"], [/(\{"tolerances":\[.*?,"[-+0<=>]*",\[\[)/, "$10,"], [/(\{"tolerances":\[.*?,"[-+0<=>]*",\[\[)-?(\d)/, "$19$2"]]) {
     const other = text.replace(from, to), answers = three_answers(other);
     if (other === text || new Set(answers).size > 1) fail(`apart, ${name}: ${answers}: ${from} ${to}`);
   }
@@ -595,7 +595,7 @@ const widest = (name, on) => {
   return fs.readFileSync(path.join(folder, `tolerance-${on}-certified.cert.json`), "latin1");
 };
 const scaled = widest("orthoglide-as-built", "direction"), fanned = widest("orthoglide-as-built", "anchor"), both = widest("orthoglide-wide-tolerance", "direction");
-const one_scale = /"([-+0]*1[-+01]*)",\[/.exec(scaled)[1], places_of = (c, text) => [...text.matchAll(c)].map((x) => x.index);
+const one_scale = /"([-+0<=>]*1[-+01<=>]*)",\[/.exec(scaled)[1], places_of = (c, text) => [...text.matchAll(c)].map((x) => x.index);
 const put = (text, at, c) => text.slice(0, at) + c + text.slice(at + 1);
 let any = 0;
 for (const to of ["0", "-", "+"]) for (const at of places_of(/1/g, one_scale)) {
@@ -627,12 +627,12 @@ for (const change of [
   const answers = three_answers(with_fan(change));
   if (new Set(answers).size > 1) fail(`directions: ${answers}: ${change}`); else any++;
 }
-for (const to of [...places_of(/[-+0]/g, one_scale).map((at) => put(one_scale, at, "1")), one_scale.replace("1", "2"), one_scale.replace("1", "")]) {
+for (const to of [...places_of(/[-+0<=>]/g, one_scale).map((at) => put(one_scale, at, "1")), one_scale.replace("1", "2"), one_scale.replace("1", "")]) {
   const answers = three_answers(scaled.replaceAll(`"${one_scale}"`, `"${to}"`));
   if (answers.some((answer) => answer !== "REJECTED")) fail(`of one scale: ${answers}: ${to}`);
 }
 read.push(scaled, fanned, both);
-console.log(`directions of one scale, and apart: three certificates and ${any} others with one answer, and ${places_of(/[-+0]/g, one_scale).length + 11} refused`);
+console.log(`directions of one scale, and apart: three certificates and ${any} others with one answer, and ${places_of(/[-+0<=>]/g, one_scale).length + 11} refused`);
 // Fans about all that is at vertices, each bound of a condition number by itself, and rank with the workspace's own inequality: at bounds ever nearer to the last.
 let by_parts = 0, no_parts = 0;
 {
@@ -1351,10 +1351,21 @@ for (const [text, low, high] of apart_tolerances) {
   // Squares in derivatives are products here, which rounds otherwise: not to the last bit.
   narrowed(text, low, high, 18);
 }
+// Of second order, all quantities or one of three: second derivatives are by other formulas here.
+const by_second = (text, which) => text.replace(/,"([-+0]+)",\[/g, (_, ends) => `,"${[...ends].map((end, i) => which(i) ? "<>="["-+0".indexOf(end)] : end).join("")}",[`);
+let of_second_order = 0;
+for (const [text, low, high] of apart_tolerances) for (const which of [() => true, (i) => i % 3 === 1]) {
+  const curved = (b) => by_second(text(b), which);
+  if (!/"[-+0]*[<=>]/.test(curved("1"))) fail(`of second order: none: ${curved("?")}`);
+  if (all(curved(String(low)))[1] === all(curved(String(high)))[1]) fail(`of second order: one answer at ${low} and ${high}: ${curved("?")}`);
+  narrowed(curved, low, high, 12);
+  of_second_order++;
+}
+console.log(`tolerances of second order: ${of_second_order} machines, with one answer at 14 bounds each`);
 const shown_apart = (step, legs = wide, workspace = box) => asks(legs, workspace, about("transmission", "max"), one_leaf(`[0,${step}]`))("3");
 if (all(shown_apart(apartly(identity, "-0+", a))).some((answer) => answer !== "CERTIFIED")) fail("tolerances: none");
 for (const text of [
-  ...["", "-0", "-0+-", "-0x", "-0 "].map((ends) => shown_apart(apartly(identity, ends, a))),
+  ...["", "-0", "-0+-", "-0x", "-0 ", "<=", "<=><", "<=1", "<=≥"].map((ends) => shown_apart(apartly(identity, ends, a))),
   shown_apart(apartly(identity, "", a), three), shown_apart(apartly(identity, "000", a), three),
   shown_apart(apartly(identity, "-0+")), shown_apart(apartly(identity, "-0+", a, a)), shown_apart(apartly(identity, "-0+", [1, 1])), shown_apart(apartly(identity, "-0+", [1, 1, 1, 1])),
   shown_apart(apartly(apartly(identity, "-0+", a), "-0+", a)), shown_apart(`{"inside":[${apartly(identity, "-0+", a)},1,9]}`, wide, cylinder),

@@ -81,7 +81,10 @@ impl Over<'_> {
         let from = |ends: &str, all: &[f64]| self.apart_from(test, &worst, (ends, &all[..most]));
         machines.iter().find_map(|ends| from(ends, &LENGTHS)).or_else(|| {
             let by = self.of_second_order(test)?;
-            let all = machines.iter().map(|ends| self.to_second_order(ends, &by));
+            // Of one scale, where directions are so: nothing is lost by that.
+            let all = machines[machines.len().saturating_sub(2)..]
+                .iter()
+                .map(|ends| self.to_second_order(ends, &by));
             all.into_iter().find_map(|ends| from(&ends, &LENGTHS_OF_SECOND_ORDER))
         })
     }
