@@ -594,7 +594,14 @@ const widest = (name, on) => {
   spawnSync(orthocert, ["tolerance", path.join(__dirname, `../../../tests/designs/${name}.toml`), "--on", on, "-o", folder]);
   return fs.readFileSync(path.join(folder, `tolerance-${on}-certified.cert.json`), "latin1");
 };
-const scaled = widest("orthoglide-as-built", "direction"), fanned = widest("orthoglide-as-built", "anchor"), both = widest("orthoglide-wide-tolerance", "direction");
+const scaled = widest("orthoglide-as-built", "direction"), plain = widest("orthoglide-as-built", "anchor"), both = widest("orthoglide-wide-tolerance", "direction");
+// Three directions at 60 degrees, with as much of what says that a direction is in a wedge as a power of two may be: with less than three of them it is too much.
+const with_three = (k) => {
+  const all = JSON.parse(plain), step = all.proof.tree.nodes.flatMap((node) => node.by ?? []).find(([, e]) => e.tolerances?.[0].lower);
+  step[1] = { fan: [[8, 0, 0], [4, 7, 0], [-4, 7, 0]].map((c) => [c, 2 ** k, 40, JSON.parse(JSON.stringify(step[1]))]) };
+  return `${JSON.stringify(all)}\n`;
+};
+const fanned = with_three([...Array(41).keys()].reverse().find((k) => verify(with_three(k)) === "CERTIFIED"));
 const one_scale = /"([-+0<=>]*1[-+01<=>]*)",\[/.exec(scaled)[1], places_of = (c, text) => [...text.matchAll(c)].map((x) => x.index);
 const put = (text, at, c) => text.slice(0, at) + c + text.slice(at + 1);
 let any = 0;
@@ -602,7 +609,7 @@ for (const to of ["0", "-", "+"]) for (const at of places_of(/1/g, one_scale)) {
   const answers = three_answers(scaled.replaceAll(`"${one_scale}"`, `"${put(one_scale, at, to)}"`));
   if (new Set(answers).size > 1) fail(`of one scale: ${answers}: ${to} at ${at}`); else any++;
 }
-for (const text of [scaled, fanned, both]) {
+for (const text of [scaled, plain, fanned, both]) {
   const answers = three_answers(text);
   if (answers.some((answer) => answer !== "CERTIFIED")) fail(`directions: ${answers}`);
 }

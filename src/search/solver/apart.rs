@@ -260,7 +260,7 @@ impl Over<'_> {
         &self,
         Worst { place, weights, .. }: &Worst,
     ) -> Option<BTreeMap<usize, [f64; 2]>> {
-        let values = self.prover.checker.derived(self.formulas.place, false)?;
+        let values = self.prover.checker.derived(self.formulas.place, self.prover.has_scales())?;
         let Derived { of, .. } = self.problem().derived.as_ref()?;
         let mut by: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
         for (f, weight) in weights {
@@ -277,7 +277,7 @@ impl Over<'_> {
     /// What each tolerance times half of the range of the derivative by it is there.
     pub(super) fn ranges_of_derivatives(&self, found: &Worst) -> Option<Vec<(usize, f64)>> {
         let all = self.by_derivatives(found)?.into_iter().map(|(j, [_, half])| {
-            let (low, high) = *self.prover.parameters().get(j)?;
+            let (low, high) = *self.prover.of_one_scale().get(j)?;
             Some((j, (high - low) * half))
         });
         all.collect()
@@ -290,7 +290,7 @@ impl Over<'_> {
         Worst { place, weights, .. }: &Worst,
     ) -> Option<BTreeMap<usize, f64>> {
         let of = &self.problem().derived.as_ref()?.second.as_ref()?.of;
-        let values = self.prover.checker.second(self.formulas.place, false)?;
+        let values = self.prover.checker.second(self.formulas.place, self.prover.has_scales())?;
         let mut by: BTreeMap<[usize; 2], [f64; 2]> = BTreeMap::new();
         for (f, weight) in weights {
             for (pair, second) in of.get(f)? {
@@ -302,7 +302,7 @@ impl Over<'_> {
         }
         let mut lost = BTreeMap::new();
         for ([j, l], [value, half]) in by {
-            let width = |j: usize| self.prover.parameters().get(j).map(half_width);
+            let width = |j: usize| self.prover.of_one_scale().get(j).map(half_width);
             let both = width(j)? * width(l)?;
             let own = both * if j == l { half } else { value.abs() + half };
             *lost.entry(j).or_default() += 0.5 * own;
@@ -314,7 +314,7 @@ impl Over<'_> {
     /// What tolerances take off the value there, about, and the part of it that is lost for the ranges of derivatives; and what
     /// is lost for those of slopes.
     pub(super) fn taken_off(&self, found: &Worst) -> Option<[f64; 2]> {
-        let parameters = self.prover.parameters();
+        let parameters = self.prover.of_one_scale();
         let by = self.by_derivatives(found)?;
         let second = self.lost_to_second_order(found);
         let (mut changed, mut lost) = (0.0, 0.0);

@@ -65,6 +65,11 @@ impl<'a> Prover<'a> {
         self.problem.inputs.get(j).is_some_and(Input::differs) && own.get(j) != scaled.get(j)
     }
 
+    /// The same, where machines differ by the scale of a direction with it.
+    pub(super) fn of_one_scale(&self) -> &[Pair] {
+        &self.checker.scaled_parameters
+    }
+
     /// Whether they do of some.
     pub(super) fn has_scales(&self) -> bool {
         (0..self.problem.inputs.len()).any(|j| self.is_scale(j))

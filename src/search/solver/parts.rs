@@ -284,7 +284,7 @@ impl Over<'_> {
         let by = |f: Formula, number: usize| {
             let own = derivatives.get(&f)?.iter().filter(|(j, _)| *j == number);
             let sizes = own.map(|(_, d)| Some(magnitude(&derived.of(*d)?.range)));
-            let (low, high) = *self.prover.parameters().get(number)?;
+            let (low, high) = *self.prover.of_one_scale().get(number)?;
             Some(0.5 * (high - low) * sizes.sum::<Option<f64>>()?)
         };
         let along = (0..self.m()).map(|k| self.varies(test, &|f| self.along(f, k)));
@@ -332,7 +332,7 @@ impl Over<'_> {
     fn across(&self, found: Stretched) -> Option<f64> {
         let Stretched { rows, values: Rows { a, d }, sign, place, directions, .. } = &found;
         let w = directions.first()?;
-        let derived = self.prover.checker.derived(self.formulas.place, false)?;
+        let derived = self.prover.checker.derived(self.formulas.place, self.prover.has_scales())?;
         let derivatives = &self.problem().derived.as_ref()?.of;
         let at = |f: Formula| Some(at_place(derived.of(f)?, place));
         let mut t = DMatrix::zeros(a.ncols(), a.ncols());
@@ -343,7 +343,7 @@ impl Over<'_> {
             let mut all = Changes::new();
             for (k, f) in row.a.iter().chain([&row.d]).enumerate() {
                 for &(j, derivative) in derivatives.get(f)? {
-                    let (low, high) = *self.prover.parameters().get(j)?;
+                    let (low, high) = *self.prover.of_one_scale().get(j)?;
                     let change = *sign * at(derivative)? * (high - low);
                     let s = all.entry(j).or_insert_with(|| DVector::zeros(a.ncols()));
                     match k < a.ncols() {

@@ -4,11 +4,12 @@ use super::Checker;
 use crate::arithmetic::Enclosure;
 use crate::certificate::Evidence;
 use crate::control::{Control, Controls};
-use crate::formula::{Formula, Op};
+use crate::formula::{Formula, Op, Tape, Values};
 use crate::quantity::Test;
 use crate::slope::evaluate;
 use crate::test::tolerances::{is_of_second_order, OfSecondOrder, Tolerances};
 use crate::test::{width, Formulas, Over, Place};
+use std::cell::OnceCell;
 use std::collections::BTreeSet;
 
 /// Whether these are directions for a test, or half of one, of `m` coordinates, one for each matrix; of other rows, of as many entries.
@@ -64,14 +65,7 @@ impl<E: Enclosure> Checker<'_, E> {
         of_one_scale: bool,
     ) -> Option<&'p Formulas<E>> {
         let tape = &self.problem.derived.as_ref()?.tape;
-        let [ranges, scaled] = &place.derived;
-        let (values, parameters) = match of_one_scale {
-            true => (scaled, &self.scaled_parameters),
-            false => (ranges, &self.parameters),
-        };
-        Some(values.get_or_init(|| {
-            evaluate(tape, parameters, self.slopes(place.edges.len()), place.edges)
-        }))
+        Some(self.run_once(place, &place.derived, (tape, &Values::default()), of_one_scale))
     }
 
     /// The same with second derivatives, where these are known.
@@ -82,7 +76,17 @@ impl<E: Enclosure> Checker<'_, E> {
     ) -> Option<&'p Formulas<E>> {
         let tape = &self.problem.derived.as_ref()?.second.as_ref()?.tape;
         let known = self.derived(place, of_one_scale)?;
-        let [ranges, scaled] = &place.second;
+        Some(self.run_once(place, &place.second, (tape, known), of_one_scale))
+    }
+
+    /// A tape of all machines, or of those with directions of one scale, run once a cell.
+    fn run_once<'p>(
+        &self,
+        place: &Place<'_, E::Number>,
+        [ranges, scaled]: &'p [OnceCell<Formulas<E>>; 2],
+        (tape, known): (&Tape, &Formulas<E>),
+        of_one_scale: bool,
+    ) -> &'p Formulas<E> {
         let (values, parameters) = match of_one_scale {
             true => (scaled, &self.scaled_parameters),
             false => (ranges, &self.parameters),
@@ -90,8 +94,7 @@ impl<E: Enclosure> Checker<'_, E> {
         let slopes = self.slopes(place.edges.len());
         let coordinate = |k: usize| slopes.coordinate(k, place.edges.get(k)?.clone());
         let parameter = |j: usize| slopes.constant(parameters.get(j)?.clone());
-        let run = || tape.run_parts(&slopes, (None, known), coordinate, parameter);
-        Some(values.get_or_init(run))
+        values.get_or_init(|| tape.run_parts(&slopes, (None, known), coordinate, parameter))
     }
 
     /// What is so with tolerances apart, by the lemmas of [`Tolerances`]. The one machine has the least
