@@ -29,7 +29,7 @@ const MOST_BOXES: [usize; 2] = [50_000, 20_000];
 /// One of so many boxes of a width may be open where a looser one goes on.
 const FEW_OPEN: usize = 8;
 /// With tolerances in parts each width may take so many times the boxes that are worth it elsewhere.
-const TIMES_IN_PARTS: usize = 16;
+const TIMES_IN_PARTS: usize = 4;
 /// How often a better inner end may turn up before the search is given up.
 const ROUNDS: usize = 8;
 

@@ -46,7 +46,7 @@ const NEXT_TO_POINT: usize = 4;
 const ABREAST_NEXT_TO_POINT: usize = 256;
 /// Tolerances, and coordinates, times boxes of a tree; a third of it for each coordinate of orientation, as each box takes
 /// three times as long.
-const MOST_TRIED: usize = 16_000;
+const MOST_TRIED: usize = 64_000;
 
 impl<'a> Parts<'a> {
     /// Most boxes that are worth it.
