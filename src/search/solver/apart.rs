@@ -82,10 +82,9 @@ impl Over<'_> {
         machines.iter().find_map(|ends| from(ends, &LENGTHS)).or_else(|| {
             let by = self.of_second_order(test)?;
             // Of one scale, where directions are so: nothing is lost by that.
-            let all = machines[machines.len().saturating_sub(2)..]
-                .iter()
-                .map(|ends| self.to_second_order(ends, &by));
-            all.into_iter().find_map(|ends| from(&ends, &LENGTHS_OF_SECOND_ORDER))
+            let mut last = machines[machines.len().saturating_sub(2)..].iter();
+            let second = |ends| self.to_second_order(ends, &by);
+            last.find_map(|ends| from(&second(ends), &LENGTHS_OF_SECOND_ORDER))
         })
     }
 
