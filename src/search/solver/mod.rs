@@ -72,7 +72,6 @@ use orthocert_kernel::problem::Problem;
 use parts::Parts;
 use sample::{Sampler, Worst};
 use search::{search, Branch, Ends, Open, Outcome};
-use std::collections::BTreeSet;
 use std::sync::atomic::AtomicBool;
 
 pub use refute::{approximate, number};
@@ -344,12 +343,19 @@ pub fn proof_about(
     }
 }
 
-/// With derivatives by what machines differ by, and, of machines whose rows are tested at vertices, second ones.
+/// With derivatives by what machines differ by, and second ones.
 fn with_derivatives(problem: Problem) -> Problem {
+    with_second_derivatives(problem.with_derivatives())
+}
+
+/// With second derivatives too, of machines whose rows are tested at vertices.
+fn with_second_derivatives(problem: Problem) -> Problem {
+    if problem.legs.iter().all(|leg| leg.scaled.is_some()) {
+        return problem;
+    }
     let differing = problem.inputs.iter().enumerate().filter(|(_, input)| input.differs());
-    let is_scaled = problem.legs.iter().all(|leg| leg.scaled.is_some());
-    let by = if is_scaled { BTreeSet::new() } else { differing.map(|(j, _)| j).collect() };
-    problem.with_derivatives().with_second_derivatives(&by)
+    let by = differing.map(|(j, _)| j).collect();
+    problem.with_second_derivatives(&by)
 }
 
 /// A short tree of a problem with tolerances, in ranges; where there is none, the problem to search.
@@ -358,14 +364,16 @@ fn in_ranges(
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Result<Vec<Node>, Box<Problem>> {
-    let derived = Box::new(with_derivatives(problem.clone()));
+    let derived = problem.clone().with_derivatives();
     if derived.derived.is_none() {
-        return Err(derived);
+        return Err(Box::new(derived));
     }
     let most = MOST_IN_RANGES[usize::from(problem.orientation.is_empty())];
     let budget = Budget { max_boxes: budget.max_boxes.min(most), ..budget };
     let found = Prover::new(problem).map(|prover| from_root(&prover, budget, control));
-    found.ok().and_then(Result::ok).ok_or(derived)
+    // Second derivatives are for what ranges do not show.
+    let found = found.ok().and_then(Result::ok);
+    found.ok_or_else(|| Box::new(with_second_derivatives(derived)))
 }
 
 /// The problem of a claim whose tree is grown in parts, the same for all of them.
@@ -487,8 +495,7 @@ pub(crate) fn tree(
     control: &mut Control<'_>,
     accepts: impl Fn(&Tree) -> bool,
 ) -> Result<Tree, Stop> {
-    let derived = Some(with_derivatives(problem.clone()));
-    let problem = derived.as_ref().unwrap_or(problem);
+    let problem = &with_derivatives(problem.clone());
     let prover = Prover::new(problem).map_err(|_| Stop::Hopeless)?;
     if !points.iter().all(|point| prover.holds_next_to(point, problem.derived.is_some())) {
         return Err(Stop::Hopeless);
