@@ -6,7 +6,7 @@
 From Coq Require Import Reals.
 From Orthocert Require Import Vec3 SingularValues Kinematics Velocity Diagonal CubeLower Scaling
   Postulate Extremes Design TightCorner AllPsi Claim Paper.
-From Orthocert.kernel Require Apart Solve Tolerances Second Check Machine Acceleration Accuracy Gradient Near Problem Faces Witness Cubes NoCube Closed Trig Arm Written AtPoint Turning Same Twins TwinsDriven TwinsWritten Accelerated Far FarWritten BetweenWritten Singular Legs Control Pose Drives Driven Certificate PavingText.
+From Orthocert.kernel Require Apart Solve Tolerances Second Weighted Check Machine Acceleration Accuracy Gradient Near Problem Faces Witness Cubes NoCube Closed Trig Arm Written AtPoint Turning Same Twins TwinsDriven TwinsWritten Accelerated Far FarWritten BetweenWritten Singular Legs Control Pose Drives Driven Certificate PavingText.
 From Orthocert.instances Require OrthoglideTolerance LinearDelta PostulateAll PostulateUpTo2 FourSliders StrutsAndPlane DeltaSpeed DeltaMargin UpuAxes
   FiveBar PlanarPlatform FiveBarFormulas Prototype DeltaTooFast NoCube Atlas.
 Local Open Scope R_scope.
@@ -138,6 +138,8 @@ Check kernel.Tolerances.less_changes_sound.
 Check kernel.Second.second_mean_value.
 Check kernel.Second.second_symmetric.
 Check kernel.Check.shows_apart_sound.
+Check kernel.Weighted.less_all_sound.
+Check kernel.Check.weighted_half_sound.
 Check kernel.Certificate.accept_cells_sound.
 Check FiveBar.certified.
 Check PlanarPlatform.certified.
@@ -184,7 +186,7 @@ Definition all_of_them :=
    @kernel.Far.refute_far_driven_sound, @kernel.FarWritten.refute_far_written_sound, @kernel.Control.controls_decide,
    @kernel.Pose.check_turning_sound, @Claim.every_value, @kernel.Tolerances.mean_value,
    @kernel.Tolerances.less_changes_sound, @kernel.Second.second_mean_value, @kernel.Second.second_symmetric,
-   @kernel.Check.shows_apart_sound,
+   @kernel.Check.shows_apart_sound, @kernel.Weighted.less_all_sound, @kernel.Check.weighted_half_sound,
    @kernel.Certificate.accept_cells_sound, @FiveBar.certified, @PlanarPlatform.certified,
    @FiveBarFormulas.certified, @Prototype.certified, @DeltaTooFast.refuted, @NoCube.certified,
    @Atlas.certified, @kernel.Certificate.verify_sound, @kernel.PavingText.verify_paving_sound).

@@ -53,7 +53,13 @@ fn it_describes_every_form_of_evidence_and_of_failure() {
         Evidence::Outside,
         Evidence::Tolerances(about(Evidence::Test), "-0+1<=>".to_owned(), vec![vec![-3, i64::MAX]]),
         Evidence::Fan(vec![Part(vec![i64::MIN, 1], 1, 63, Evidence::Test)]),
-        Evidence::Between(vec![3, 0, -1], 63, about(Evidence::Test), about(Evidence::Test)),
+        Evidence::Between(
+            vec![3, 0, -1],
+            63,
+            vec![vec![0, -7], vec![i64::MAX, 1]],
+            about(Evidence::Test),
+            about(Evidence::Test),
+        ),
         Evidence::Inside(about(Evidence::Test), 1, 0),
         Evidence::Control(about(Evidence::Turned(about(Evidence::Test), 1, 63))),
     ];

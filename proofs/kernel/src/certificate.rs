@@ -188,9 +188,9 @@ pub enum Evidence {
     Tolerances(Box<Evidence>, String, Vec<Vec<i64>>),
     /// For singular values: evidence for the directions of each part.
     Fan(Vec<Part>),
-    /// For a condition number: `mu_0, mu_1, .., mu_m`, over `2^places`, and evidence for `sigma_min^2 >= mu` and for
-    /// `sigma_max^2 <= c^2 mu`.
-    Between(Vec<i64>, u32, Box<Evidence>, Box<Evidence>),
+    /// For a condition number: `mu_0, mu_1, .., mu_m`, over `2^places`, for each row how `mu` depends on the quantities by
+    /// which machines differ, over the same, if it does; and evidence for `sigma_min^2 >= mu` and for `sigma_max^2 <= c^2 mu`.
+    Between(Vec<i64>, u32, Vec<Vec<i64>>, Box<Evidence>, Box<Evidence>),
     /// The evidence, where it needs the workspace's own inequality: so much of it over `2^places`.
     Inside(Box<Evidence>, i64, u32),
     /// The evidence, where it needs the orientations' own inequality: so much of it over `2^places`.

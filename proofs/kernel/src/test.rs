@@ -26,7 +26,7 @@ pub mod curvature;
 pub mod solve;
 pub mod tolerances;
 
-use self::tolerances::{less_changes, Tolerances, Toward};
+use self::tolerances::{less_changes, Change, Directions, Tolerances, Toward};
 use crate::arithmetic::{Arithmetic, Enclosure};
 use crate::cell::Vertex;
 use crate::control::Controls;
@@ -35,6 +35,7 @@ use crate::formula::{Formula, Values};
 use crate::slope::{Slope, Slopes};
 use serde::{Deserialize, Serialize};
 use std::cell::OnceCell;
+use std::collections::BTreeMap;
 
 /// `A_i` and `D_i`.
 #[derive(Clone, Debug, PartialEq)]
@@ -142,14 +143,17 @@ pub struct Wedge<'a> {
 /// the point.
 #[derive(Clone, Copy)]
 pub struct Half<'a> {
-    /// `mu_0, .., mu_m`, and their binary places.
+    /// `mu_0, .., mu_m`, and the binary places of all.
     pub mu: (&'a [i64], u32),
-    /// `sigma_max^2 <= c^2 mu`; else `sigma_min^2 >= mu`.
-    pub upper: bool,
+    /// For each row its `n_ij`, by the parameters `j`, if it is not the same for all machines: `mu` is more by
+    /// `sum_ij n_ij theta_j`.
+    pub weights: &'a [BTreeMap<usize, i64>],
+    /// `c^2`, of `sigma_max^2 <= c^2 mu`; else `sigma_min^2 >= mu`.
+    pub upper: Option<Formula>,
 }
 
 /// A row at a vertex, `A_i` and then `D_i`, and what tolerances change of it.
-type Varied<N> = (Vector<N>, Vec<Vector<N>>);
+type Varied<N> = (Vector<N>, Vec<Change<N>>);
 
 /// What a bound is at a vertex.
 pub type AtVertex<'a, N> = &'a dyn Fn(Vertex) -> Option<N>;
@@ -239,14 +243,14 @@ impl<'a, E: Enclosure> Over<'a, E> {
         }
     }
 
-    /// A row at a vertex.
-    fn row(&self, row: &Row<Formula>, vertex: Vertex) -> Option<Varied<E::Number>> {
+    /// A row, of this number, at a vertex.
+    fn row(&self, i: usize, row: &Row<Formula>, vertex: Vertex) -> Option<Varied<E::Number>> {
         let mut own = Vector::filled(0, Default::default);
         for f in &row.a {
             own.push(self.own_at(*f, vertex)?);
         }
         own.push(self.own_at(row.d, vertex)?);
-        Some((own, self.changes(row.a.iter().chain([&row.d]), vertex)?))
+        Some((own, self.changes(row.a.iter().chain([&row.d]), Some(i), vertex)?))
     }
 
     /// `c I`, with what a wedge adds.
@@ -262,6 +266,11 @@ impl<'a, E: Enclosure> Over<'a, E> {
             })?;
         }
         Some(t)
+    }
+
+    /// `c^2 mu`, of one bound of a condition number.
+    fn above(&self, mu: &E::Number) -> Option<E::Number> {
+        self.slopes.arithmetic.mul(&self.range(self.half?.upper?)?, mu)
     }
 
     /// Whether every `D_i` is positive on the cell.
@@ -364,8 +373,8 @@ impl<E: Enclosure> Over<'_, E> {
         }
         let (zero, one) = (e.integer(0)?, e.integer(1)?);
         let (mut t, mut all) = (self.start(m, rest)?, Vec::new());
-        for (row, y) in rows.iter().zip(&evidence.y) {
-            let (row, changes) = self.row(row, v)?;
+        for (i, (row, y)) in rows.iter().zip(&evidence.y).enumerate() {
+            let (row, changes) = self.row(i, row, v)?;
             // 2 A_i - D_i Y_i.
             let residual = |row: &[E::Number], d: &E::Number| -> Option<Vector<E::Number>> {
                 let d = if with_d { d } else { &zero };
@@ -387,19 +396,22 @@ impl<E: Enclosure> Over<'_, E> {
             if !changes.is_empty() {
                 let fixed = y.iter().map(|&y| e.dyadic(y, places, &one));
                 let fixed: Vector<E::Number> = fixed.collect::<Option<_>>()?;
-                let half = |row: &Vector<E::Number>| {
-                    residual(row, row.last()?)?.iter().map(|z| e.halve(z)).collect()
+                let half = |change: &Change<E::Number>| {
+                    let z = residual(&change.s, change.s.last()?)?;
+                    change.of(z.iter().map(|z| e.halve(z)).collect::<Option<_>>()?, |nu| e.neg(nu))
                 };
                 let changes: Vec<_> = changes.iter().map(half).collect::<Option<_>>()?;
                 all.push((fixed, changes));
             }
         }
-        let toward = self.toward(<[_]>::first)?;
+        let (toward, across) = (self.toward(<[_]>::first)?, self.across()?);
         t = toward.matrix(e, t)?;
         for (fixed, changes) in all {
-            let changes = changes.into_iter().map(|s| toward.vector(e, s));
+            let changes = changes.into_iter().map(|c| c.of(toward.vector(e, c.s.clone())?, some));
             let changes: Vec<_> = changes.collect::<Option<_>>()?;
-            less_changes(e, &mut t, &toward.vector(e, fixed)?, &changes, &toward.direction)?;
+            let across = across.as_deref();
+            let directions = Directions { along: &toward.direction, across, first: 0 };
+            less_changes(e, &mut t, &toward.vector(e, fixed)?, &changes, &directions)?;
         }
         Some(is_positive_definite(e, &t))
     }
@@ -418,13 +430,15 @@ impl<E: Enclosure> Over<'_, E> {
             let start = self.start(width(rows), &self.less_inside(k_squared(v)?, v)?)?;
             let mut rest = toward.matrix(e, start)?;
             // Each D_i with its row of A alone: the other D_j are not touched by its elimination.
-            for row in rows {
-                let (row, changes) = self.row(row, v)?;
+            for (i, row) in rows.iter().enumerate() {
+                let (row, changes) = self.row(i, row, v)?;
                 let row = toward.vector(e, row)?;
                 let (d, a) = row.split_last()?;
                 let [least, _] = e.ends(d);
                 let mut first = std::iter::once(least).chain(a.iter().cloned()).collect();
                 if !changes.is_empty() {
+                    let changes = changes.iter().map(|c| c.of(c.s.clone(), |nu| self.above(nu)));
+                    let changes = changes.collect::<Option<_>>()?;
                     (first, rest) = less_changed_row(e, (first, rest), (d, a), changes, &toward)?;
                 }
                 eliminate(e, &first, &mut rest.entries)?;
@@ -440,16 +454,16 @@ fn less_changed_row<E: Enclosure>(
     e: &E,
     (first, rest): Bordered<E::Number>,
     (d, a): (&E::Number, &[E::Number]),
-    changes: Vec<Vector<E::Number>>,
+    changes: Vec<Change<E::Number>>,
     toward: &Toward<E::Number>,
 ) -> Option<Bordered<E::Number>> {
     let (zero, m, own) = (e.integer(0)?, a.len(), toward.bordered(e, d, a)?);
     let fixed = (0..=m).map(|i| if i == 0 { e.integer(1) } else { Some(zero.clone()) });
-    let change = |row: Vector<E::Number>| {
-        let row = toward.vector(e, row)?;
+    let change = |change: Change<E::Number>| {
+        let row = toward.vector(e, change.s.clone())?;
         let (d, a) = row.split_last()?;
         let s = std::iter::once(e.halve(d)).chain(a.iter().cloned().map(Some));
-        own.vector(e, s.collect::<Option<_>>()?)
+        change.of(own.vector(e, s.collect::<Option<_>>()?)?, some)
     };
     let changes: Vec<_> = changes.into_iter().map(change).collect::<Option<_>>()?;
     let bordered = Triangle::new(m + 1, |i, j| match i.checked_sub(1) {
@@ -458,9 +472,15 @@ fn less_changed_row<E: Enclosure>(
     })?;
     let mut bordered = own.matrix(e, bordered)?;
     let fixed = own.vector(e, fixed.collect::<Option<_>>()?)?;
-    less_changes(e, &mut bordered, &fixed, &changes, &own.direction)?;
+    let directions = Directions { along: &own.direction, across: None, first: 1 };
+    less_changes(e, &mut bordered, &fixed, &changes, &directions)?;
     let rest = Triangle::new(m, |i, j| bordered.row(i + 1).get(j - i).cloned())?;
     Some((bordered.row(0).iter().cloned().collect(), rest))
+}
+
+/// What stays as it is.
+fn some<N: Clone>(x: &N) -> Option<N> {
+    Some(x.clone())
 }
 
 /// The columns of `A`.

@@ -114,7 +114,8 @@ Inductive step :=
   (* [ends]: of each quantity with two ends, where the one machine is *)
   | Apart_ (s : step) (ends : string) (directions : list (list Z))
   | Fan_ (cs : list (list Z * Z * N * step))
-  | Between_ (mu : list Z) (places : N) (lower upper : step).
+  (* [weights]: of each row, of each quantity with two ends by what mu is more; or none *)
+  | Between_ (mu : list Z) (places : N) (weights : list (list Z)) (lower upper : step).
 
 Inductive violation :=
   | Reach | Obligation (number : nat) (directions : list (list Z)) | Row (number leg : nat) | Dependent_
@@ -333,7 +334,7 @@ Fixpoint evidence_text (s : step) : text :=
   | AtControls_ s => variant "control" (evidence_text s)
   | Apart_ s ends vs => variant "tolerances" (array [evidence_text s; quoted ends; array (map integers_text vs)])
   | Fan_ cs => variant "fan" (array (map (fun p => let '(c, n, places, s) := p in array [integers_text c; integer_text n; places_text places; evidence_text s]) cs))
-  | Between_ mu places lower upper => variant "between" (array [integers_text mu; places_text places; evidence_text lower; evidence_text upper])
+  | Between_ mu places weights lower upper => variant "between" (array [integers_text mu; places_text places; array (map integers_text weights); evidence_text lower; evidence_text upper])
   end.
 Definition step_text (s : nat * step) : text := array [natural (fst s); evidence_text (snd s)].
 Definition violation_text (f : violation) : text :=
@@ -391,7 +392,7 @@ Fixpoint is_plain_step (s : step) : bool :=
   | Inside_ s _ _ | Turned_ s _ _ | AtControls_ s => is_plain_step s
   | Apart_ s ends _ => is_plain ends && is_plain_step s
   | Fan_ cs => forallb (fun p => is_plain_step (snd p)) cs
-  | Between_ _ _ lower upper => is_plain_step lower && is_plain_step upper
+  | Between_ _ _ _ lower upper => is_plain_step lower && is_plain_step upper
   | AtCorner _ | Conditioned_ _ _ _ | Accurate_ _ _ _ _ => true
   end.
 (** Letters, digits and _, a letter first; [sqrt] is none. *)
@@ -1024,6 +1025,10 @@ Fixpoint ends_of (free : list nat) (l : list ascii) : option (list (nat * Tolera
   | _, _ => None
   end.
 
+(** Of each row a number for each of these parameters. *)
+Definition weights_of (free : list nat) (rows : list (list Z)) : option (list (list (nat * Z))) :=
+  if forallb (fun row => Nat.eqb (length row) (length free)) rows then Some (map (fun row => filter (fun p => negb (snd p =? 0)%Z) (combine free row)) rows) else None.
+
 Section Steps.
 (** Of how many coordinates, the parameters with two ends, and those that may be apart. *)
 Variables (m : nat) (free apart : list nat).
@@ -1054,7 +1059,10 @@ Fixpoint evidence_of (s : step) : option evidence :=
       | [] => Some []
       | (c, n, places, s) :: ps' => match evidence_of s, all ps' with Some e, Some r => Some ((c, n, places, e) :: r) | _, _ => None end
       end) cs)
-  | Between_ mu places lower upper => match evidence_of lower, evidence_of upper with Some e, Some f => Some (ByBetween places mu e f) | _, _ => None end
+  | Between_ mu places weights lower upper => match weights_of apart weights, evidence_of lower, evidence_of upper with
+      | Some weights, Some e, Some f => Some (ByBetween places mu weights e f)
+      | _, _, _ => None
+      end
   end.
 Fixpoint steps_of (l : list (nat * step)) : option (list (nat * evidence)) :=
   match l with

@@ -7,7 +7,7 @@
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert Require Import Fixed.
 From Orthocert.kernel Require Import Formula Linear Arithmetic Slope Definite Test Cell Apart.
-From Orthocert.kernel Require Solve Near Nearby Spread Twofold Tolerances Second Curvature Scale Toward.
+From Orthocert.kernel Require Solve Near Nearby Spread Twofold Tolerances Second Curvature Scale Toward Weighted.
 Import ListNotations.
 Local Open Scope R_scope.
 
@@ -45,8 +45,8 @@ Inductive evidence :=
   | OfOneScale (groups : list (list nat)) (ones : list nat) (e : evidence)
   (* of the directions between each of these and the next one: less n over 2^places times what says so *)
   | ByFan (parts : list (list Z * Z * N * evidence))
-  (* condition numbers: [mu] as of [ByConditioning], and each bound by itself *)
-  | ByBetween (places : N) (mu : list Z) (lower upper : evidence).
+  (* condition numbers: [mu] as of [ByConditioning], more by multiples of parameters, of each row its own, if there are some; and each bound by itself *)
+  | ByBetween (places : N) (mu : list Z) (weights : list (list (nat * Z))) (lower upper : evidence).
 
 (** Steps name tests by their number, counted from zero. *)
 Inductive tree :=
@@ -402,6 +402,45 @@ Definition half_on (values : list (option slope)) (cell : list fixed) (upper : o
   | ByTolerances (Inside e k p) ends curved [v] => inside_of k p (fun less => half less e ends curved v)
   | ByTolerances e ends curved [v] => half None e ends curved v
   | ByTolerances _ _ _ _ => false
+  | Inside e k p => inside_of k p (fun less => half less e [] [] none)
+  | e => half None e [] [] none
+  end.
+
+(** The same where [mu] is more by multiples of parameters: of each machine its own, of which some change with each row. *)
+Definition weighted_half (values : list (option slope)) (cell : list fixed) (upper : option fixed) (mu : slope) (pl : N) (weights : list (list (nat * Z)))
+    (less : option slope) (e : evidence) (ends : list (nat * Tolerances.choice)) (curved : list nat) (directions : list (list Z)) : bool :=
+  let m := length cell in
+  let coords := coords_from 0 cell in
+  let own := kept (places_of_rows whole) tape in
+  let steps := Second.steps bits ends curved params in
+  let of := machines values coords own ends curved in
+  let subtracted := match less with Some t => t | None => constant zero end in
+  let mu := total mu (constant (Weighted.total_of pl (Tolerances.starts_from ends 0 params) weights)) in
+  let nss := map (fun row => map (fun e => Weighted.multiple_for row (fst e)) ends) weights in
+  let over (holds : list bool -> fixed -> list (Weighted.weighted fixed) -> bool) :=
+    match rows_apart values of whole with
+    | Some r => forallb (fun p => Weighted.are_related (fst p) (snd p)) (combine nss r) &&
+        forallb (fun s => holds s (at_vertex s subtracted) (map (fun p => Weighted.weighted_at bits pl s steps (fst p) (snd p)) (combine nss r))) (signs m)
+    | None => false
+    end in
+  let definite t := match t with Some t => Solve.is_definite bits m t | None => false end in
+  forallb (fun j => Nat.ltb j (length params)) (map fst ends) && are_once (map fst ends) &&
+  (are_among curved ends && forallb (fun v => Nat.eqb (length v) m) directions && Nat.eqb (length weights) (length whole)) &&
+  match upper, e, directions with
+  | None, ByLower places Y, [w; d] =>
+      let across := if forallb (fun x => (x =? 0)%Z) d then None else Some (map (fun x => Arithmetic.dyadic x 4 (Fixed.integer bits 1)) d) in
+      over (fun s t r => definite (Weighted.lower_weighted bits (map (Fixed.integer bits) w) across places Y r (repeat [neg (add (at_vertex s mu) t)] m)))
+  | Some c2, ByTest, [w] => over (fun s t r => definite (Weighted.upper_weighted bits (map (Fixed.integer bits) w) c2 r (repeat [sub (mul bits c2 (at_vertex s mu)) t] m)))
+  | _, _, _ => false
+  end.
+Definition weighted_half_on (values : list (option slope)) (cell : list fixed) (upper : option fixed) (mu : slope) (pl : N) (weights : list (list (nat * Z))) (e : evidence) : bool :=
+  let half := weighted_half values cell upper mu pl weights in
+  let inside_of k p f := match inside cell with Some tangent => (0 <=? k)%Z && f (Some (dyadic_slope k p tangent)) | None => false end in
+  let none := map (fun _ => 0%Z) cell in
+  let none := match upper with None => [none; none] | Some _ => [none] end in
+  match e with
+  | ByTolerances (Inside e k p) ends curved directions => inside_of k p (fun less => half less e ends curved directions)
+  | ByTolerances e ends curved directions => half None e ends curved directions
   | Inside e k p => inside_of k p (fun less => half less e [] [] none)
   | e => half None e [] [] none
   end.
@@ -1247,6 +1286,82 @@ Proof.
     + refine (Low (fun _ => True) places Y (fun a i => Tolerances.lower_apart bits (map (Fixed.integer bits) direction) places Y i (repeat [a] (length cell))) _ h).
       intros a K i r v g hr ha lv nz _. exact (lower_apart_shows _ _ K _ _ _ _ _ _ g hr ha lv nz).
 Qed.
+
+Theorem weighted_half_sound : forall upper mu q pl weights less e directions, own = kept (places_of_rows whole) tape -> entry_in bits mu q -> harmless lambda less ->
+  weighted_half values cell upper mu pl weights less e ends curved directions = true -> half_holds (fun _ => True) (length cell) x upper (at_lambda lambda q + Weighted.total_at pl theta weights).
+Proof.
+  intros upper mu q pl weights less e directions eo hq hs h. unfold weighted_half in h. cbv zeta in h. rewrite <- eo in h. apply andb_true_iff in h as [shape h]. apply andb_true_iff in shape as [_ shape].
+  apply andb_true_iff in shape as [shape lw]. apply andb_true_iff in shape as [_ ld]. apply Nat.eqb_eq in lw. rewrite forallb_forall in ld.
+  destruct all_strides as [theta0 [mss [h0 [h1 [same [hm hd]]]]]]. pose proof (are_once_sound _ ends_once) as once.
+  assert (L : exists el, entry_in bits match less with Some t => t | None => constant zero end el /\ 0 <= at_lambda lambda el).
+  { destruct less as [s |]; [exact hs |]. exists (0, []). split; [apply constant_in, zero_sound | unfold at_lambda; cbn; lra]. }
+  destruct L as [el [hel el0]]. set (subtracted := match less with Some t => t | None => constant zero end) in *.
+  set (W := Weighted.total_at pl theta weights). set (W0 := Weighted.total_at pl theta0 weights).
+  destruct (total_in bits _ _ _ _ hq (constant_in bits _ _ (Weighted.total_sound bits pl _ theta0 weights h0))) as [q' [hq' eq']]. fold W0 in eq'.
+  set (mu' := total mu _) in *. assert (at_q : forall l, at_lambda l q' = at_lambda l q + W0) by (intro l; rewrite eq', at_constant; reflexivity). clear eq'.
+  set (nss := map (fun row => map (fun e => Weighted.multiple_for row (fst e)) ends) weights) in *.
+  assert (ln : length nss = length whole) by (unfold nss; rewrite map_length; exact lw).
+  (* by rows, mu changes by all that it differs by *)
+  assert (Changed : forall (real : list (list R * R)), length real = length nss ->
+    Weighted.changed (map (fun p => (snd p, dot (map (Y_value pl) (fst p)) (map Tolerances.stride mss))) (combine nss real)) = W - W0).
+  { unfold nss, W, W0. clear - hd once same. induction weights as [| row rows IH]; intros [| r real] l; try discriminate; [cbn; ring |].
+    cbn [map combine Weighted.changed fold_right fst snd Weighted.total_at]. unfold Weighted.changed, Weighted.total_at in IH. rewrite IH by (cbn in l; congruence). rewrite hd. unfold Second.differences. cbv zeta.
+    rewrite <- (app_nil_r (map (Y_value pl) _)), Second.dot_app by (rewrite !map_length; reflexivity). cbn [dot].
+    rewrite (Weighted.multiple_changes pl ends theta0 theta row once same). ring. }
+  assert (Over : forall (holds_at : list bool -> fixed -> list (Weighted.weighted fixed) -> bool),
+    match rows_apart values of whole with Some r => forallb (fun p => Weighted.are_related (fst p) (snd p)) (combine nss r) &&
+      forallb (fun s => holds_at s (at_vertex s subtracted) (map (fun p => Weighted.weighted_at bits pl s (Second.steps bits ends curved params) (fst p) (snd p)) (combine nss r))) (signs (length cell)) | None => false end = true ->
+    regular x (map_rows formula_at whole) /\ forall c p w v,
+      (forall l l1 l2 a b, (forall e, at_lambda l e = a * at_lambda l1 e + b * at_lambda l2 e) -> a + b = 1 -> c l = a * c l1 + b * c l2) ->
+      (forall s t T i real, length s = length cell -> holds_at s t i = true -> contains t T -> Forall2 (Weighted.weighted_in bits) i real -> Weighted.changed real = W - W0 ->
+        0 < c (map corner s) + p * T + form w (map fst real) v) ->
+      0 < c lambda + p * at_lambda lambda el + form w (map_rows (value x theta) (map_rows formula_at whole)) v).
+  { intros holds_at k. destruct (rows_apart values of whole) as [srs |] eqn:er; [| discriminate]. apply andb_true_iff in k as [_ k].
+    destruct (rows_apart_sound theta0 mss whole srs h0 h1 same hd er) as [reg [es [e1 e2]]]. split; [exact reg |]. intros c p w v affine H. rewrite e2.
+    assert (le : length es = length nss) by (rewrite ln; rewrite <- (map_length (fun e => (map (value_of mss lambda) (fst e), value_of mss lambda (snd e))) es), <- e2; unfold map_rows; rewrite !map_length; reflexivity).
+    rewrite forallb_forall in k. set (move := fun e : Tolerances.multi entry => Tolerances.moved (fst e) (map Tolerances.stride mss) (snd e)).
+    set (E := map (fun e : list (Tolerances.multi entry) * Tolerances.multi entry => (map move (fst e), move (snd e))) es).
+    assert (R0 : forall l, map (fun e : list (Tolerances.multi entry) * Tolerances.multi entry => (map (value_of mss l) (fst e), value_of mss l (snd e))) es = map_rows (at_lambda l) E).
+    { intro l. unfold E, map_rows. rewrite map_map. apply map_ext. intros [a d]. cbn [fst snd]. rewrite map_map. reflexivity. }
+    rewrite R0. apply (vertices_decide lambda (fun l => c l + p * at_lambda l el + form w (map_rows (at_lambda l) E) v) lambda_in).
+    - intros before t after. rewrite (form_affine _ _ _ _ _ (at_lambda_affine before t after)).
+      rewrite (affine _ _ _ _ _ (at_lambda_affine before t after)) by field. rewrite (at_lambda_affine before t after el). field.
+    - intros s len. rewrite lambda_length in len.
+      assert (K : holds_at s (at_vertex s subtracted) (map (fun p => Weighted.weighted_at bits pl s (Second.steps bits ends curved params) (fst p) (snd p)) (combine nss srs)) = true) by (apply k; rewrite <- len; apply signs_all).
+      rewrite <- R0. set (at_ := map _ es).
+      assert (la : length at_ = length nss) by (unfold at_; rewrite map_length; exact le).
+      specialize (H s (at_vertex s subtracted) _ _ (map (fun p => (snd p, dot (map (Y_value pl) (fst p)) (map Tolerances.stride mss))) (combine nss at_)) len K (at_vertex_sound bits s _ _ hel)).
+      assert (F : map fst (map (fun p : list Z * (list R * R) => (snd p, dot (map (Y_value pl) (fst p)) (map Tolerances.stride mss))) (combine nss at_)) = at_).
+      { rewrite map_map. cbn [fst]. clear - la. revert la. generalize nss. induction at_ as [| a l I]; intros [| n ns] e; try discriminate; [reflexivity |]. cbn [combine map snd]. rewrite I by (cbn in e; congruence). reflexivity. }
+      rewrite F in H. apply H; [| apply Changed; exact la]. unfold at_. clear - e1 hm. generalize nss. induction e1 as [| q e srs es [k1 k2] e1 I]; intros [| n ns]; cbn [combine map]; constructor; [| apply I].
+      cbn [fst snd]. exact (Weighted.weighted_at_sound bits pl s _ n q (fst e) (snd e) mss k1 k2 hm). }
+  pose proof (dot_self) as d0.
+  assert (W_in : forall w : list Z, Forall2 contains (map (Fixed.integer bits) w) (map IZR w)) by (induction w; cbn; constructor; auto using integer_sound).
+  assert (D : forall T U v, match T with Some t => Solve.is_definite bits (length cell) t | None => false end = true -> (forall t, T = Some t -> triangle_in bits t U) -> length v = length cell -> nonzero v -> 0 < quad U v)
+    by (intros T U v; exact (definite_apart T U v (length cell))).
+  destruct upper as [c2 |], e as [| | places Y | places Y | places Y | places Y mu0 | | | | | | | | places Y | | places Y kappa | e0 ends0 directions0 | | |]; try discriminate.
+  - destruct directions as [| w [|]]; try discriminate. pose proof (ld w (or_introl eq_refl)) as lwd. apply Nat.eqb_eq in lwd.
+    destruct (Over (fun s t i => match Weighted.upper_weighted bits (map (Fixed.integer bits) w) c2 i (repeat [sub (mul bits c2 (at_vertex s mu')) t] (length cell)) with Some t => Solve.is_definite bits (length cell) t | None => false end) h) as [R G].
+    split; [exact R |]. intros v lv nz _ c hc. destruct (upper_energy _ v (proj2 R)) as [z E].
+    specialize (G (fun l => c * (at_lambda l q' + (W - W0)) * dot v v) (- dot v v) (upper_weights z) v ltac:(intros l l1 l2 a b h3 s; cbv beta; rewrite (h3 q'); replace (W - W0) with ((a + b) * (W - W0)) at 1 by (rewrite s; ring); ring)). cbv beta in G.
+    assert (P : 0 < c * (at_lambda lambda q' + (W - W0)) * dot v v + - dot v v * at_lambda lambda el + form (upper_weights z) (map_rows (value x theta) (map_rows formula_at whole)) v).
+    { apply G. intros s t T i real ls hh ht hr hch. destruct (Weighted.upper_weighted _ _ _ _ _) as [t' |] eqn:eu in hh; [| discriminate].
+      destruct (Weighted.upper_weighted_sound bits _ _ c2 c i real _ _ t' (W_in w) hc hr (diagonal_in bits _ _ (length cell) (sub_sound bits _ _ _ _ (mul_sound bits _ _ _ _ hc (at_vertex_sound bits s _ _ hq')) ht)) eu) as [U [hU qU]].
+      pose proof (D (Some t') U v hh ltac:(intros t1 e'; injection e' as <-; exact hU) lv nz) as P. specialize (qU v z ltac:(rewrite map_length; congruence)). rewrite hch in qU. rewrite <- lv, quad_diagonal in qU. lra. }
+    rewrite at_q in P. pose proof (Rmult_le_pos _ _ (dot_self v) el0). replace (at_lambda lambda q + W0 + (W - W0)) with (at_lambda lambda q + W) in P by ring. lra.
+  - destruct directions as [| w [| d [|]]]; try discriminate. pose proof (ld w (or_introl eq_refl)) as lwd. apply Nat.eqb_eq in lwd. set (across := if forallb _ d then None else _) in h.
+    assert (ok : Weighted.may_cross bits across 0).
+    { unfold across, Weighted.may_cross. destruct (forallb _ d); [exact I |]. split; [reflexivity |]. exists (map (Y_value 4) d). clear. induction d as [| n d J]; cbn [map]; constructor; [| exact J].
+      replace (Y_value 4 n) with (Y_value 4 n * 1) by ring. apply Arithmetic.dyadic_sound, Fixed.integer_sound. }
+    destruct (Over (fun s t i => match Weighted.lower_weighted bits (map (Fixed.integer bits) w) across places Y i (repeat [neg (add (at_vertex s mu') t)] (length cell)) with Some t => Solve.is_definite bits (length cell) t | None => false end) h) as [R G].
+    split; [exact R |]. intros v lv nz _. pose proof (lower_energy places Y _ v (proj2 R)) as E.
+    specialize (G (fun l => - ((at_lambda l q' + (W - W0)) * dot v v)) (- dot v v) (lower_weights places Y v) v ltac:(intros l l1 l2 a b h3 s; cbv beta; rewrite (h3 q'); replace (W - W0) with ((a + b) * (W - W0)) at 1 by (rewrite s; ring); ring)). cbv beta in G.
+    assert (P : 0 < - ((at_lambda lambda q' + (W - W0)) * dot v v) + - dot v v * at_lambda lambda el + form (lower_weights places Y v) (map_rows (value x theta) (map_rows formula_at whole)) v).
+    { apply G. intros s t T i real ls hh ht hr hch. destruct (Weighted.lower_weighted _ _ _ _ _ _ _) as [t' |] eqn:eu in hh; [| discriminate].
+      destruct (Weighted.lower_weighted_sound bits _ _ across places Y i real _ _ t' (W_in w) ok hr (diagonal_in bits _ _ (length cell) (neg_sound bits _ _ (add_sound bits _ _ _ _ (at_vertex_sound bits s _ _ hq') ht))) eu) as [U [hU qU]].
+      pose proof (D (Some t') U v hh ltac:(intros t1 e'; injection e' as <-; exact hU) lv nz) as P. specialize (qU v ltac:(rewrite map_length; congruence)). rewrite hch in qU. rewrite <- lv, quad_diagonal in qU. lra. }
+    rewrite at_q in P. pose proof (Rmult_le_pos _ _ (dot_self v) el0). replace (at_lambda lambda q + W0 + (W - W0)) with (at_lambda lambda q + W) in P by ring. lra.
+Qed.
 End Apart.
 
 (** [allowed x]: in the workspace. *)
@@ -1498,6 +1613,27 @@ Proof.
     destruct directions as [| v [|]]; try discriminate. destruct (Tangent k p (fun less => shows_half (evaluate_kept keep cell) cell upper mu wedge less e ends curved v) h) as [less [hl g]]. exact (One less _ _ _ _ hl g).
 Qed.
 
+Lemma weighted_half_on_holds : forall keep cell x lambda upper mu q pl weights e, entry_in bits mu q -> length lambda = length cell -> Forall (fun t => -1 <= t <= 1) lambda -> allowed x ->
+  Forall2 (fun a p => snd p - centre_of bits a = IZR (half a) / unit_R bits * fst p) cell (combine lambda x) ->
+  (forall k, Slope.holds bits lambda (nth k (coords_from 0 cell) (constant zero)) (nth k (map (centre_of bits) cell) 0) (nth k x 0)) ->
+  weighted_half_on (evaluate_kept keep cell) cell upper mu pl weights e = true -> half_holds (fun _ => True) (length cell) x upper (at_lambda lambda q + Weighted.total_at pl theta weights).
+Proof.
+  intros keep cell x lambda upper mu q pl weights e hq el hlam ok hd C h.
+  assert (One : forall less e ends curved directions, harmless lambda less -> weighted_half (evaluate_kept keep cell) cell upper mu pl weights less e ends curved directions = true ->
+    half_holds (fun _ => True) (length cell) x upper (at_lambda lambda q + Weighted.total_at pl theta weights)).
+  { intros less e' ends curved directions hl k. assert (k' := k). unfold weighted_half in k'. cbv zeta in k'. apply andb_true_iff in k' as [k' _]. apply andb_true_iff in k' as [k' _]. apply andb_true_iff in k' as [k1 k2].
+    exact (weighted_half_sound cell x lambda el hlam C ends k1 k2 keep _ curved upper mu q pl weights less e' directions eq_refl hq hl k). }
+  assert (Tangent : forall k p f, match inside cell with Some tangent => (0 <=? k)%Z && f (Some (dyadic_slope k p tangent)) | None => false end = true ->
+    exists less, harmless lambda less /\ f less = true).
+  { intros k p f g. destruct (inside cell) as [tangent |] eqn:i; [| discriminate]. apply andb_true_iff in g as [n0 g]. exists (Some (dyadic_slope k p tangent)). split; [| exact g].
+    destruct (inside_sound _ _ _ _ i el ok hd) as [d [h1 h2]]. exact (tangent_harmless lambda k p tangent d n0 h1 h2). }
+  unfold weighted_half_on in h. cbv zeta in h. destruct e as [| | | | | | | | | e k p | | | | | | | e ends curved directions | | |]; try (exact (One None _ _ _ _ I h)).
+  - destruct (Tangent k p (fun less => weighted_half (evaluate_kept keep cell) cell upper mu pl weights less e [] [] match upper with None => [map (fun _ => 0%Z) cell; map (fun _ => 0%Z) cell] | Some _ => [map (fun _ => 0%Z) cell] end) h) as [less [hl g]].
+    exact (One less _ _ _ _ hl g).
+  - destruct e as [| | | | | | | | | e k p | | | | | | | | | |]; try (exact (One None _ _ _ _ I h)).
+    destruct (Tangent k p (fun less => weighted_half (evaluate_kept keep cell) cell upper mu pl weights less e ends curved directions) h) as [less [hl g]]. exact (One less _ _ _ _ hl g).
+Qed.
+
 Lemma evaluate_holds : forall cell x t e, Forall2 contains cell x -> allowed x -> shows_on (evaluate cell) cell t e = true -> holds (length cell) x t.
 Proof. intros cell x t e hx ok h. rewrite <- evaluate_all in h. exact (kept_holds [] cell x t e hx ok h). Qed.
 
@@ -1572,16 +1708,43 @@ Definition between_shows (values : list (option slope)) (cell : list fixed) (t :
       (combine (Toward.wedges (map (fun p => fst (fst (fst p))) parts)) parts)
   | _ => half_of values cell t upper mu None e
   end.
+(** Of one scale alike, or one of them alone is. *)
+Fixpoint are_same {A : Type} (same : A -> A -> bool) (l m : list A) : bool :=
+  match l, m with [], [] => true | a :: l', b :: m' => same a b && are_same same l' m' | _, _ => false end.
+Definition groups_of_scale (e : evidence) : option (list (list nat)) := match e with OfOneScale groups _ _ => Some groups | _ => None end.
+Definition are_alike (e f : evidence) : bool := match groups_of_scale e, groups_of_scale f with Some g, Some h => are_same (are_same Nat.eqb) g h | _, _ => true end.
+(** By parameters that have no range then, too, [mu] is more with a row that depends on them. *)
+Definition depends_op (j : nat) (o : op bool) : bool :=
+  match o with
+  | Coord _ | Integer _ => false
+  | Param i => Nat.eqb i j
+  | Neg a | Sqr a | Sqrt a => a
+  | Add a b | Sub a b | Mul a b | Div a b => a || b
+  | Elbow _ a b t => a || b || t
+  end.
+Definition are_of_rows (ones : list nat) (weights : list (list (nat * Z))) : bool :=
+  forallb (fun p => forallb (fun q => negb (Second.is_in (fst q) ones) || (let known := run bool false (depends_op (fst q)) tape in existsb (fun i => nth i known false) (places_of_rows [snd p]))) (fst p))
+    (combine weights whole).
+Definition weighted_of (values : list (option slope)) (cell : list fixed) (t : test) (upper : option fixed) (mu : slope) (places : N) (weights : list (list (nat * Z))) (e : evidence) : bool :=
+  match e with
+  | OfOneScale groups ones e => may_scale t groups ones && are_of_rows ones weights &&
+      weighted_half_on bits tape whole (fold_left Scale.of_one_scale groups params) inside (scaled_values groups cell t e) cell upper mu places weights e
+  | _ => weighted_half_on bits tape whole params inside values cell upper mu places weights e
+  end.
 Definition shows_step (values : list (option slope)) (cell : list fixed) (t : test) (e : evidence) : bool :=
   match e with
   | OfOneScale groups ones e => may_scale t groups ones &&
       shows_on bits tape whole divided partial (fold_left Scale.of_one_scale groups params) inside (scaled_values groups cell t e) cell t e
   | ByFan parts => negb (Nat.eqb (length parts) 0) && (negb (is_of_divided e) || is_of_rows t) &&
       forallb (fun p => shows_part (is_of_divided e) values cell t (fst p) (snd p)) (combine (Toward.wedges (map (fun p => fst (fst (fst p))) parts)) parts)
-  | ByBetween places mu lower upper =>
+  | ByBetween places mu weights lower upper =>
       match t with
       | Conditioning c2 => let mu := mu_slope bits places mu in
-          positive_there (length cell) mu && between_shows values cell t None mu lower && between_shows values cell t (Some c2) mu upper
+          match weights with
+          | [] => positive_there (length cell) mu && between_shows values cell t None mu lower && between_shows values cell t (Some c2) mu upper
+          | _ => positive_there (length cell) (total mu (constant (Weighted.total_of places params weights))) && are_alike lower upper &&
+              weighted_of values cell t None mu places weights lower && weighted_of values cell t (Some c2) mu places weights upper
+          end
       | _ => false
       end
   | _ => shows_on bits tape whole divided partial params inside values cell t e
@@ -1758,13 +1921,51 @@ Proof.
     (destruct H as [r [e k]]; exists r; split; [right; destruct e; assumption | exact k]).
 Qed.
 
+(** Where [mu] is of each machine its own, both bounds are shown of the same one. *)
+Lemma are_same_sound : forall (A : Type) (same : A -> A -> bool), (forall a b, same a b = true -> a = b) -> forall l m, are_same same l m = true -> l = m.
+Proof.
+  intros A same h. induction l as [| a l IH]; intros [| b m] e; try discriminate; [reflexivity |]. cbn [are_same] in e. apply andb_true_iff in e as [e1 e2]. rewrite (h a b e1), (IH m e2). reflexivity.
+Qed.
+Definition of_evidence (e : evidence) : list fixed := match groups_of_scale e with Some groups => fold_left Scale.of_one_scale groups params | None => params end.
+Lemma weighted_of_holds : forall keep cell x lambda c2 upper mu q places weights e th, entry_in bits mu q -> length lambda = length cell -> Forall (fun t => -1 <= t <= 1) lambda -> allowed x ->
+  Forall2 (fun a p => snd p - centre_of bits a = IZR (half a) / unit_R bits * fst p) cell (combine lambda x) ->
+  (forall k, Slope.holds bits lambda (nth k (coords_from 0 cell) (constant zero)) (nth k (map (centre_of bits) cell) 0) (nth k x 0)) -> Forall2 contains (of_evidence e) th ->
+  weighted_of (evaluate_kept keep cell) cell (Conditioning c2) upper mu places weights e = true ->
+  half_holds bits tape whole th (fun _ => True) (length cell) x upper (at_lambda lambda q + Weighted.total_at places th weights).
+Proof.
+  intros keep cell x lambda c2 upper mu q places weights e th hq el hlam ok hd C hth h. unfold of_evidence in hth.
+  destruct e as [| | | | | | | | | | | | | | | | | groups ones e | |]; cbn [groups_of_scale] in hth; cbn [weighted_of] in h;
+    try exact (weighted_half_on_holds bits tape whole params inside th hth allowed inside_sound keep cell x lambda upper mu q places weights _ hq el hlam ok hd C h).
+  apply andb_true_iff in h as [_ h]. exact (weighted_half_on_holds bits tape whole _ inside th hth allowed inside_sound _ cell x lambda upper mu q places weights e hq el hlam ok hd C h).
+Qed.
+(** There is one machine that both are about, of which what is shown is so of this one. *)
+Lemma one_machine : forall values cell m x c2 u v mu places weights lower upper, are_alike lower upper = true ->
+  weighted_of values cell (Conditioning c2) u mu places weights lower = true -> weighted_of values cell (Conditioning c2) v mu places weights upper = true ->
+  exists th, Forall2 contains params th /\ Forall2 contains (of_evidence lower) th /\ Forall2 contains (of_evidence upper) th /\
+    forall ps, holds bits tape whole divided partial ps th m x (Conditioning c2) -> holds bits tape whole divided partial params theta m x (Conditioning c2).
+Proof.
+  intros values cell m x c2 u v mu places weights lower upper alike hl hu.
+  assert (Scaled : forall upper e, weighted_of values cell (Conditioning c2) upper mu places weights e = true -> exists th, Forall2 contains params th /\ Forall2 contains (of_evidence e) th /\
+    forall ps, holds bits tape whole divided partial ps th m x (Conditioning c2) -> holds bits tape whole divided partial params theta m x (Conditioning c2)).
+  { intros w e h.
+    assert (Own : groups_of_scale e = None -> exists th, Forall2 contains params th /\ Forall2 contains (of_evidence e) th /\
+      forall ps, holds bits tape whole divided partial ps th m x (Conditioning c2) -> holds bits tape whole divided partial params theta m x (Conditioning c2)).
+    { intro n. unfold of_evidence. rewrite n. exists theta. split; [exact theta_in |]. split; [exact theta_in | intros ps H; exact H]. }
+    destruct e as [| | | | | | | | | | | | | | | | | groups ones e | |]; try exact (Own eq_refl). cbn [weighted_of] in h. apply andb_true_iff in h as [h _]. apply andb_true_iff in h as [g _].
+    destruct (scaled_shows x m (Conditioning c2) groups ones g) as [th [T [H _]]]. exists th. split; [exact (Scale.all_of_one_scale_within bits groups params theta th theta_in T) |]. split; [exact T | exact H]. }
+  destruct (Scaled _ _ hl) as [th1 [T1 [L1 H1]]]. destruct (Scaled _ _ hu) as [th2 [T2 [L2 H2]]]. unfold are_alike in alike. unfold of_evidence in *.
+  destruct (groups_of_scale lower) as [g |]; [| exists th2; repeat (split; [assumption |]); exact H2].
+  destruct (groups_of_scale upper) as [g' |]; [| exists th1; repeat (split; [assumption |]); exact H1].
+  apply (are_same_sound _ _ (are_same_sound _ _ (fun a b => proj1 (Nat.eqb_eq a b)))) in alike. subst g'. exists th1. repeat (split; [assumption |]). exact H1.
+Qed.
+
 Lemma shows_step_holds : forall keep cell x t e, Forall2 contains cell x -> allowed x ->
   shows_step (evaluate_kept keep cell) cell t e = true -> holds bits tape whole divided partial params theta (length cell) x t.
 Proof.
   intros keep cell x t e hx ok h.
   assert (Other : shows_on bits tape whole divided partial params inside (evaluate_kept keep cell) cell t e = true -> holds bits tape whole divided partial params theta (length cell) x t)
     by exact (kept_holds bits tape whole divided partial params inside theta theta_in allowed inside_sound keep cell x t e hx ok).
-  destruct e as [| | | | | | | | | | | | | | | | | groups ones e | parts | places mu lower upper]; try exact (Other h); clear Other; cbn [shows_step] in h; [| | destruct t; try discriminate]; apply andb_true_iff in h as [h1 h].
+  destruct e as [| | | | | | | | | | | | | | | | | groups ones e | parts | places mu weights lower upper]; try exact (Other h); clear Other; cbn [shows_step] in h; [| | destruct t; try discriminate; destruct weights as [| row weights]; [| set (all := row :: weights) in *]]; apply andb_true_iff in h as [h1 h].
   - destruct (scaled_shows x (length cell) t groups ones h1) as [scaled [T [H _]]].
     exact (H _ (kept_holds bits tape whole divided partial _ inside scaled T allowed inside_sound _ cell x t e hx ok h)).
   - apply andb_true_iff in h1 as [h1 h2]. apply negb_true_iff, Nat.eqb_neq in h1. set (d := is_of_divided (ByFan parts)) in *. set (r := if d then divided else whole).
@@ -1784,6 +1985,13 @@ Proof.
     apply (holds_of_halves bits tape whole divided partial params theta (length cell) x c2 _ p0).
     + exact (between_holds keep cell x lambda c2 None _ q lower hq el hlam ok hd C h1).
     + exact (between_holds keep cell x lambda c2 (Some c2) _ q upper hq el hlam ok hd C h).
+  - apply andb_true_iff in h1 as [h0 h1]. apply andb_true_iff in h0 as [h0 alike]. destruct (coords_from_hold bits cell x hx) as [lambda [el [hlam [hd C]]]]. specialize (C []). cbn [app length] in C.
+    destruct (mu_slope_in bits places mu) as [q hq]. rewrite <- el in h0. destruct (one_machine _ cell (length cell) x c2 _ _ _ places all lower upper alike h1 h) as [th [T [Tl [Tu H]]]]. apply (H params).
+    destruct (total_in bits _ _ _ _ hq (constant_in bits _ _ (Weighted.total_sound bits places params th all T))) as [q' [hq' eq']].
+    pose proof (positive_there_sound bits _ _ _ h0 hq' hlam) as p0. rewrite eq', at_constant in p0.
+    apply (holds_of_halves bits tape whole divided partial params th (length cell) x c2 _ p0).
+    + exact (weighted_of_holds keep cell x lambda c2 None _ q places all lower th hq el hlam ok hd C Tl h1).
+    + exact (weighted_of_holds keep cell x lambda c2 (Some c2) _ q places all upper th hq el hlam ok hd C Tu h).
 Qed.
 
 (** Every test that is not open holds. *)

@@ -197,4 +197,18 @@ Proof.
       split; rewrite Rmult_assoc; set (v := nth k theta 0 * unit_R bits) in *;
         assert (B : 0 <= s * v <= v \/ v <= s * v <= 0) by (clearbody v; clear - s0 s1; destruct (Rle_dec 0 v); [left | right]; split; nra); lra.
 Qed.
+
+(** It is one of all. *)
+Lemma of_one_scale_within : forall J params theta t, Forall2 contains params theta -> Forall2 contains (of_one_scale params J) t -> Forall2 contains params t.
+Proof.
+  intros J params theta t h. unfold of_one_scale. destruct (filter _ J) as [| j [|]]; auto. clear J. revert j t.
+  induction h as [| a x params theta ha h IH]; intros [| j] t k; cbn [put_at nth] in k; inversion k as [| ? y ? t' k1 k2]; subst; constructor; try assumption.
+  - destruct ha as [h1 h2], k1 as [g1 g2]. cbn [next_to_zero lo hi] in g1, g2. split; destruct (0 <? lo a)%Z; lra.
+  - exact (IH j t' k2).
+Qed.
+Lemma all_of_one_scale_within : forall groups params theta t, Forall2 contains params theta -> Forall2 contains (fold_left of_one_scale groups params) t -> Forall2 contains params t.
+Proof.
+  induction groups as [| J groups IH]; intros params theta t h k; [exact k |]. cbn [fold_left] in k. destruct (of_one_scale_sound J params theta h) as [s [th [_ [h1 _]]]].
+  exact (of_one_scale_within J params theta t h (IH _ th t h1 k)).
+Qed.
 End Precision.

@@ -669,21 +669,36 @@ let by_parts = 0, no_parts = 0;
   };
   // Of all directions, and of two halves of them, with a multiple of what says so.
   const one_part = (e) => ({ fan: [[[1, 0, 0], 0, 0, e]] }), two_parts = (n, places) => (e) => ({ fan: [[[8, 1, 0], n, places, e], [[-1, 8, 2], n, places, e]] });
-  const halves = (e, part = (e) => e) => e.tolerances ? { between: [e.tolerances[0].conditioning[1], e.tolerances[0].conditioning[0].places,
+  const halves = (e, part = (e) => e) => e.tolerances ? { between: [e.tolerances[0].conditioning[1], e.tolerances[0].conditioning[0].places, [],
       part({ tolerances: [{ lower: e.tolerances[0].conditioning[0] }, e.tolerances[1], [e.tolerances[2][0]]] }), part({ tolerances: ["test", e.tolerances[1], [e.tolerances[2][1]]] })] }
-    : { between: [e.conditioning[1], e.conditioning[0].places, part({ lower: e.conditioning[0] }), part("test")] };
+    : { between: [e.conditioning[1], e.conditioning[0].places, [], part({ lower: e.conditioning[0] }), part("test")] };
   const is_conditioned = (e) => e.conditioning || e.tolerances?.[0].conditioning;
   const conditions = design_of("orthoglide-as-built-tight", "conditioning = { max = 3.92 }"), plainly = design_of("linear-delta-klipper-cylinder", "conditioning = { max = 4 }");
   for (const [name, text, stated, beyond] of [["as built", conditions, 3.92, 3.8], ["plainly", plainly, 4, 1.1]]) {
     for (const [i, part] of [(e) => e, one_part, two_parts(1, 24)].entries()) nearest(steps_of(text, (e) => is_conditioned(e) ? halves(e, part) : e), stated, beyond, 10, `between, ${name}, ${i}`);
     const with_ = (change) => steps_of(text, (e) => { if (!is_conditioned(e)) return e; const all = halves(e); change(all.between); return all; });
     refused([
-      (b) => b.reverse(), (b) => { b[0][0] = -b[0][0]; }, (b) => b[0].pop(), (b) => b[0].push(0), (b) => { b[1] = 64; }, (b) => { b[1]++; }, (b) => { [b[2], b[3]] = [b[3], b[2]]; }, (b) => { b[3] = b[2]; }, (b) => b.pop(),
-      (b) => { b[2] = { between: b.slice() }; }, (b) => { b[2] = { fan: [] }; }, (b) => { b[3] = { fan: [[[1, 0, 0], -1, 0, b[3]]] }; }, (b) => { b[3] = { control: b[3] }; }, (b) => { b[2] = { fan: [[[1, 0], 0, 0, b[2]]] }; },
-      (b) => { b[2] = { fan: [[[1, 0, 0], 0, 0, { fan: [[[1, 0, 0], 0, 0, b[2]]] }]] }; }, (b) => { b[3] = { fan: [[[1, 0, 0], 0, 0, { between: b.slice() }]] }; },
+      (b) => b.reverse(), (b) => { b[0][0] = -b[0][0]; }, (b) => b[0].pop(), (b) => b[0].push(0), (b) => { b[1] = 64; }, (b) => { b[1]++; }, (b) => { [b[3], b[4]] = [b[4], b[3]]; }, (b) => { b[4] = b[3]; }, (b) => b.pop(), (b) => b.splice(2, 1), (b) => { b[2] = [[]]; }, (b) => { b[2] = 0; },
+      (b) => { b[3] = { between: b.slice() }; }, (b) => { b[3] = { fan: [] }; }, (b) => { b[4] = { fan: [[[1, 0, 0], -1, 0, b[4]]] }; }, (b) => { b[4] = { control: b[4] }; }, (b) => { b[3] = { fan: [[[1, 0], 0, 0, b[3]]] }; },
+      (b) => { b[3] = { fan: [[[1, 0, 0], 0, 0, { fan: [[[1, 0, 0], 0, 0, b[3]]] }]] }; }, (b) => { b[4] = { fan: [[[1, 0, 0], 0, 0, { between: b.slice() }]] }; },
     ].map(with_), `between, ${name}`);
     refused([steps_of(text, (e) => is_conditioned(e) ? one_part(e) : e), steps_of(text, (e) => is_conditioned(e) ? one_part(halves(e)) : e)], `fan about conditioning, ${name}`);
   }
+  // With a mu that is of each machine its own: by so much of all quantities of a leg, each with its row.
+  const weighted = (n, end, d, change = () => {}) => steps_of(conditions, (e) => {
+    if (!is_conditioned(e)) return e;
+    const [y, mu] = e.conditioning ?? e.tolerances[0].conditioning, ends = end.repeat(30), own = (i, j) => Math.floor(j / 10) === i ? n * (j % 3 - 1) : 0;
+    const between = [mu.map((m) => m * 2 ** 20), y.places + 20, [0, 1, 2].map((i) => [...ends].map((_, j) => own(i, j))),
+      { tolerances: [{ lower: y }, ends, [[8, 8, 8], d]] }, { tolerances: ["test", ends, [[8, 8, 8]]] }];
+    change(between);
+    return { between };
+  });
+  for (const [n, end, d] of [[0, "0", [0, 0, 0]], [9999, "-", [0, 0, 0]], [-99999, "+", [5, -7, 1]], [99999, "0", [16, 0, -3]]]) nearest(weighted(n, end, d), 3.92, 3.8, 20, `between, ${n} with each row`);
+  nearest(weighted(9999, "0", [0, 0, 0], (b) => { b[3] = b[3].tolerances[0]; }), 3.92, 3.8, 20, "between, all machines below"), nearest(weighted(9999, "0", [1, 2, 3], (b) => { b[4] = "test"; }), 3.92, 3.8, 20, "between, all machines above");
+  refused([
+    (b) => b[2].pop(), (b) => b[2][0].pop(), (b) => b[2].push(b[2][0]), (b) => { b[2][0][10] = 1; }, (b) => b[3].tolerances[2].pop(), (b) => b[4].tolerances[2].push([0, 0, 0]), (b) => b[3].tolerances[2][1].pop(), (b) => { b[0][0] = 0; },
+    (b) => { b[3] = { fan: [[[1, 0, 0], 0, 0, b[3]]] }; }, (b) => { b[4] = { fan: [[[1, 0, 0], 0, 0, b[4]]] }; }, (b) => { b[2][0][0] = 2 ** 40; },
+  ].map((change) => weighted(9999, "0", [0, 0, 0], change)), "between, with each row");
   const signed = three_answers(conditions.replace(/"by":\[\[\d+/, '"by":[[-'));
   if (signed.some((answer) => answer !== "REJECTED")) fail(`a sign alone: ${signed}`);
   const bounded = design_of("linear-delta-klipper-cylinder", 'transmission = { min = "0.3", max = 9 }\nstiffness = { joint = 3, min = "0.001" }');

@@ -403,7 +403,7 @@ let rec evidence shape v =
     let parts = List.map part parts in
     if List.exists fst parts && not (List.for_all fst parts) then not_covered [ "evidence \"fan\" about \"divided\" and other rows" ];
     Fan_ (List.map snd parts)
-  | Object [ ("between", Array [ mu; p; e; f ]) ] -> Between_ (row (m + 1) mu, places p, evidence shape e, evidence shape f)
+  | Object [ ("between", Array [ mu; p; weights; e; f ]) ] -> Between_ (row (m + 1) mu, places p, List.map integers (array weights), evidence shape e, evidence shape f)
   | Object [ (name, _) ] -> not_covered [ "the evidence \""; name; "\"" ]
   | _ -> raise Malformed
 and at_controls shape v =

@@ -3,100 +3,100 @@
 globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurable:true,get:b}),_T_));function
 b(){var
 b=this||self;b.globalThis=b;delete
-a.prototype._T_}}(Object));(function(X){"use strict";var
-lJ="spatial",tu="Invalid_argument",iE="precision",aW='"',lI=1255,iM="inside",ss="(",st=0x800,tt="yaw",sp="range",sq="tree",sr="jsError",cC=0x8000,ts="sqrt(",so=256,iD="obligation",tr="load",gD="offset",bB="machine",sn="End_of_file",fn="strut",lH="center",gC="arm",lG="Failure",tq="serial_margin",iL="parameters",c5=0xff,tp="bodies",to="max_angle",lU="outside",gB="base_axis",lF="ENOENT",tn="singular",tm=122,sm="([^/]+)",tl="0",lE=0xf,gA=128,sl=0xdc00,tj="Sys_blocked_io",tk="fd ",gs="given",sk="ENOTEMPTY",bc=248,iC="bound",sj="Division_by_zero",th="by",ti=1027,si="Sys_error",gz="slider",sh="torsion",tg="postulate",sg="proof",lT="joint_error",gy="refuted",fg="mechanism",iB="row",sf="EEXIST",tf="roll_pitch_yaw",gx="y",se="cube",dH="lower",te="within",sd="clearance",td="turned",sc="control",iA="int_of_string",sb="between",tb="definitions",tc="dependent",gw=1024,r$="from",sa="name",ta=" : flags Open_rdonly and Open_wronly are not compatible",r_="orthocert/2",s$="reach",r9=512,s9="base_joint",s_="witness",fm="-",bu="platform",r8=0x7ff0,r7="pitch",lS=": Not a directory",bV="min",s7="trim",fl="workspace",s8=" : file already exists",iz="split",lR="legs",s6="claim",lD="joint",es=0xffffff,r6="platform_joint",r5="formulas",r4="roll",iy="atlas",s3="greatest",s4="nodes",s5="Out_of_memory",r3="psi_max",iK="orientation",ix=254,s2="angle",lQ="index out of bounds",r2="end",s1="one_to_one",iJ="_bigarr02",r1=" : flags Open_text and Open_binary are not compatible",s0="inverse",bA="drive",r0="coordinates",sZ="holds",iw="lower_divided",rZ="speed",sX="cylinder",sY="joints",c4=0xffff,sT="a leaf that fails",sU="acceleration",sV="force",gu="certified",gv="chords",sW=12520,lC="on",sS="same",ff="accuracy",gt="axis",sR="no_cube",sQ="parallel_margin",rY='the drive "',lB="Unix.Unix_error",iI="fails",iv="tool",lA="mkdir",sO="rho",sP="least",iH=1000,lz="translational",iG="tolerances",rX="Stack_overflow",lP="characteristic_length",ah="",lO="^",it="places",iu=": No such file or directory",rW="/static/",fk=0x3f,rU="stiffness",rV="Not_found",cB="planar",gr="mode",sN="joint_speed",sM="Match_failure",rT="transmission",bU="anchor",sL="at",rS="joint_force",fj="leg",rR="joint_acceleration",iF="+",ly="rmdir",sK=0xf0,sJ="spherical",rQ=1026,sH="REJECTED",sI="undecided",bX="max",bW="direction",rO="leg_angle",rP="orthoglide",fi="rank",sF="constraint_margin",sG="fan",rL="the acceleration of a joint of a machine with a plane",gq="test",rM="Pervasives.do_at_exit",rN="utf8",cf=0x80,fh="conditioning",fe="length",rK="Undefined_recursive_module",lN=")",rJ="base",sE="quantity",rI="joint_range",is="tilt",lM="divided",rH="Q2",sD="reference",rG="point",sB="corner",sC=0xe0,rF="version",lL="z",sz="to",sA=0xdfff,lx="compare: functional value",sy="Assert_failure",ch="/",sx="provenance",er="radius",ir="side",sv=-14,cg="require",sw="format",rE="Q1",lK="ENOTDIR",rD="all",eq="box",su=250;function
-l7(c,b,a){var
+a.prototype._T_}}(Object));(function(Y){"use strict";var
+lM="spatial",tI="Invalid_argument",iR="precision",aZ='"',lL=1255,iZ="inside",sG="(",sH=0x800,tH="yaw",sD="range",sE="tree",sF="jsError",cG=0x8000,tG="sqrt(",sC=256,iQ="obligation",tF="load",gL="offset",bF="machine",sB="End_of_file",fs="strut",lK="center",gK="arm",lJ="Failure",tE="serial_margin",iY="parameters",c8=0xff,tD="bodies",tC="max_angle",lX="outside",gJ="base_axis",lI="ENOENT",tB="singular",tA=122,sA="([^/]+)",tz="0",lH=0xf,gI=128,sz=0xdc00,tx="Sys_blocked_io",ty="fd ",gA="given",sy="ENOTEMPTY",bd=248,iP="bound",sx="Division_by_zero",tv="by",tw=1027,sw="Sys_error",gH="slider",sv="torsion",tu="postulate",su="proof",lW="joint_error",gG="refuted",fl="mechanism",iO="row",st="EEXIST",tt="roll_pitch_yaw",gF="y",ss="cube",dL="lower",ts="within",sr="clearance",tr="turned",sq="control",iN="int_of_string",sp="between",tp="definitions",tq="dependent",gE=1024,sn="from",so="name",to=" : flags Open_rdonly and Open_wronly are not compatible",sm="orthocert/2",tn="reach",sl=512,tl="base_joint",tm="witness",fr="-",bv="platform",sk=0x7ff0,sj="pitch",lV=": Not a directory",bY="min",tj="trim",fq="workspace",tk=" : file already exists",iM="split",lU="legs",ti="claim",lG="joint",eu=0xffffff,si="platform_joint",sh="formulas",sg="roll",iL="atlas",tf="greatest",tg="nodes",th="Out_of_memory",sf="psi_max",iX="orientation",iK=254,te="angle",lT="index out of bounds",se="end",td="one_to_one",iW="_bigarr02",sd=" : flags Open_text and Open_binary are not compatible",tc="inverse",bE="drive",sc="coordinates",tb="holds",iJ="lower_divided",sb="speed",s$="cylinder",ta="joints",c7=0xffff,s7="a leaf that fails",s8="acceleration",s9="force",gC="certified",gD="chords",s_=12520,lF="on",s6="same",fk="accuracy",gB="axis",s5="no_cube",s4="parallel_margin",sa='the drive "',lE="Unix.Unix_error",iV="fails",iI="tool",lD="mkdir",s2="rho",s3="least",iU=1000,lC="translational",iT="tolerances",r$="Stack_overflow",lS="characteristic_length",ai="",lR="^",iG="places",iH=": No such file or directory",r_="/static/",fp=0x3f,r8="stiffness",r9="Not_found",cF="planar",gz="mode",s1="joint_speed",s0="Match_failure",r7="transmission",bX="anchor",sZ="at",r6="joint_force",fo="leg",r5="joint_acceleration",iS="+",lB="rmdir",sY=0xf0,sX="spherical",r4=1026,sV="REJECTED",sW="undecided",b0="max",bZ="direction",r2="leg_angle",r3="orthoglide",fn="rank",sT="constraint_margin",sU="fan",rZ="the acceleration of a joint of a machine with a plane",gy="test",r0="Pervasives.do_at_exit",r1="utf8",ci=0x80,fm="conditioning",fj="length",rY="Undefined_recursive_module",lQ=")",rX="base",sS="quantity",rW="joint_range",iF="tilt",lP="divided",rV="Q2",sR="reference",rU="point",sP="corner",sQ=0xe0,rT="version",lO="z",sN="to",sO=0xdfff,lA="compare: functional value",sM="Assert_failure",ck="/",sL="provenance",et="radius",iE="side",sJ=-14,cj="require",sK="format",rS="Q1",lN="ENOTDIR",rR="all",es="box",sI=250;function
+l_(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=ah;for(;0<a;b+=gw,a-=gw)e+=d.apply(null,c.slice(b,b+Math.min(a,gw)));return e}function
-iO(b){if(X.Uint8Array)var
-c=new(X.Uint8Array)(b.l);else
+e=ai;for(;0<a;b+=gE,a-=gE)e+=d.apply(null,c.slice(b,b+Math.min(a,gE)));return e}function
+i1(b){if(Y.Uint8Array)var
+c=new(Y.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-gE(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?l7(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?l7(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)iO(b);var
+gM(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?l_(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?l_(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)i1(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-fq(a){return a}function
-fp(a,b,c,d,e){gE(fq(a),b,c,d,e);return 0}function
-lW(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+fv(a){return a}function
+fu(a,b,c,d,e){gM(fv(a),b,c,d,e);return 0}function
+lZ(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-c6(c,a){if(c.fun)return c6(c.fun,a);if(typeof
+c9(c,a){if(c.fun)return c9(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return c6(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return c9(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return c6(c,d)}}function
-tV(b,a){if(b==0)return ah;if(a.repeat)return a.repeat(b);var
-d=ah,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-fr(a){if(a.t==2)a.c+=tV(a.l-a.c.length,"\0");else
-a.c=l7(a.c,0,a.c.length);a.t=0}function
-fs(a){a.t&6&&fr(a);return a.c}var
-LE=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-LD(a){if(LE)return Math.floor(Math.log2(a));var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return c9(c,d)}}function
+t9(b,a){if(b==0)return ai;if(a.repeat)return a.repeat(b);var
+d=ai,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
+fw(a){if(a.t==2)a.c+=t9(a.l-a.c.length,"\0");else
+a.c=l_(a.c,0,a.c.length);a.t=0}function
+fx(a){a.t&6&&fw(a);return a.c}var
+LU=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+LT(a){if(LU)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-lZ(c){var
-a=new(X.Float32Array)(1);a[0]=c;var
-b=new(X.Int32Array)(a.buffer);return b[0]|0}var
-tN=Math.pow(2,-24);function
-Lu(a){throw a}var
-aL=[0];function
-tS(){Lu(aL.Division_by_zero)}function
-U(b,c,a){this.lo=b&es;this.mi=c&es;this.hi=a&c4}U.prototype.caml_custom="_j";U.prototype.copy=function(){return new
-U(this.lo,this.mi,this.hi)};U.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};U.prototype.compare=function(a){var
-b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};U.prototype.neg=function(){var
+l2(c){var
+a=new(Y.Float32Array)(1);a[0]=c;var
+b=new(Y.Int32Array)(a.buffer);return b[0]|0}var
+t1=Math.pow(2,-24);function
+LK(a){throw a}var
+aN=[0];function
+t6(){LK(aN.Division_by_zero)}function
+W(b,c,a){this.lo=b&eu;this.mi=c&eu;this.hi=a&c7}W.prototype.caml_custom="_j";W.prototype.copy=function(){return new
+W(this.lo,this.mi,this.hi)};W.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};W.prototype.compare=function(a){var
+b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};W.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
-U(a,b,c)};U.prototype.add=function(a){var
+W(a,b,c)};W.prototype.add=function(a){var
 b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
-U(b,c,d)};U.prototype.sub=function(a){var
+W(b,c,d)};W.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
-U(b,c,d)};U.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*tN|0)+this.mi*a.lo+this.lo*a.mi,d=(c*tN|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
-U(b,c,d)};U.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};U.prototype.isNeg=function(){return this.hi<<16<0};U.prototype.and=function(a){return new
-U(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};U.prototype.or=function(a){return new
-U(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};U.prototype.xor=function(a){return new
-U(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};U.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-U(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
-U(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
-U(0,0,this.lo<<a-48)};U.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-U(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
-U(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
-U(this.hi>>a-48,0,0)};U.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
+W(b,c,d)};W.prototype.mul=function(a){var
+b=this.lo*a.lo,c=(b*t1|0)+this.mi*a.lo+this.lo*a.mi,d=(c*t1|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+W(b,c,d)};W.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};W.prototype.isNeg=function(){return this.hi<<16<0};W.prototype.and=function(a){return new
+W(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};W.prototype.or=function(a){return new
+W(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};W.prototype.xor=function(a){return new
+W(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};W.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+W(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
+W(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
+W(0,0,this.lo<<a-48)};W.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+W(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
+W(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
+W(this.hi>>a-48,0,0)};W.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
 c=this.hi<<16>>16;if(a<24)return new
-U(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
+W(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-U(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&c4);return new
-U(this.hi<<16>>a-32,b,b)};U.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&es;this.lo=this.lo<<1&es};U.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&es;this.mi=(this.mi>>>1|this.hi<<23)&es;this.hi=this.hi>>>1};U.prototype.udivmod=function(e){var
+W(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&c7);return new
+W(this.hi<<16>>a-32,b,b)};W.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&eu;this.lo=this.lo<<1&eu};W.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&eu;this.mi=(this.mi>>>1|this.hi<<23)&eu;this.hi=this.hi>>>1};W.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
-U(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};U.prototype.div=function(a){var
-b=this;if(a.isZero())tS();var
-d=b.hi^a.hi;if(b.hi&cC)b=b.neg();if(a.hi&cC)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&cC)c=c.neg();return c};U.prototype.mod=function(b){var
-a=this;if(b.isZero())tS();var
-d=a.hi;if(a.hi&cC)a=a.neg();if(b.hi&cC)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&cC)c=c.neg();return c};U.prototype.toInt=function(){return this.lo|this.mi<<24};U.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};U.prototype.toArray=function(){return[this.hi>>8,this.hi&c5,this.mi>>16,this.mi>>8&c5,this.mi&c5,this.lo>>16,this.lo>>8&c5,this.lo&c5]};U.prototype.lo32=function(){return this.lo|(this.mi&c5)<<24};U.prototype.hi32=function(){return this.mi>>>8&c4|this.hi<<16};function
-iQ(b,c,a){return new
-U(b,c,a)}function
-iP(a){if(!isFinite(a)){if(isNaN(a))return iQ(1,0,r8);return a>0?iQ(0,0,r8):iQ(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?cC:a>=0?0:cC;if(f)a=-a;var
-b=LD(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-rQ)}else{a/=Math.pow(2,b-ti);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+W(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};W.prototype.div=function(a){var
+b=this;if(a.isZero())t6();var
+d=b.hi^a.hi;if(b.hi&cG)b=b.neg();if(a.hi&cG)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&cG)c=c.neg();return c};W.prototype.mod=function(b){var
+a=this;if(b.isZero())t6();var
+d=a.hi;if(a.hi&cG)a=a.neg();if(b.hi&cG)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&cG)c=c.neg();return c};W.prototype.toInt=function(){return this.lo|this.mi<<24};W.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};W.prototype.toArray=function(){return[this.hi>>8,this.hi&c8,this.mi>>16,this.mi>>8&c8,this.mi&c8,this.lo>>16,this.lo>>8&c8,this.lo&c8]};W.prototype.lo32=function(){return this.lo|(this.mi&c8)<<24};W.prototype.hi32=function(){return this.mi>>>8&c7|this.hi<<16};function
+i3(b,c,a){return new
+W(b,c,a)}function
+i2(a){if(!isFinite(a)){if(isNaN(a))return i3(1,0,sk);return a>0?i3(0,0,sk):i3(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?cG:a>=0?0:cG;if(f)a=-a;var
+b=LT(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-r4)}else{a/=Math.pow(2,b-tw);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&lE|f|b<<4;return iQ(g,e,c)}function
-gH(a){return a.toArray()}function
-tB(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==iJ)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<c4)c.write(16,b.dims[a]);else{c.write(16,c4);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&lH|f|b<<4;return i3(g,e,c)}function
+gP(a){return a.toArray()}function
+tP(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==iW)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<c7)c.write(16,b.dims[a]);else{c.write(16,c7);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -113,52 +113,52 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=gH(b.get(a));for(var
+e=gP(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=gH(iP(b.get(a)));for(var
+e=gP(i2(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=lZ(b.get(a));c.write(32,e)}break;case
+e=l2(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,lZ(d[1]));c.write(32,lZ(d[2]))}break;case
+d=b.get(a);c.write(32,l2(d[1]));c.write(32,l2(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=gH(iP(f[1]));for(var
+f=b.get(a),e=gP(i2(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=gH(iP(f[2]));for(var
+e=gP(i2(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-Lw(b,a){throw[0,b,a]}function
-t0(a){if(a.length<24){for(var
+LM(b,a){throw[0,b,a]}function
+uc(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-l8(e){for(var
-j=ah,c=ah,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<cf){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<cf;d++);if(d-b>r9){c.substr(0,1);j+=c;c=ah;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==gA){g=h+(f<<6);if(f<sC){a=g-0x3080;if(a<cf)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==gA){g=h+(g<<6);if(f<sK){a=g-0xe2080;if(a<st||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==gA&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>c4)c+=String.fromCharCode(0xd7c0+(a>>10),sl+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>gw){c.substr(0,1);j+=c;c=ah}}return j+c}function
-cD(c,a,b){this.t=c;this.c=a;this.l=b}cD.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:fr(this);case
-0:if(t0(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};cD.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return l8(a)};cD.prototype.slice=function(){var
+l$(e){for(var
+j=ai,c=ai,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<ci){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<ci;d++);if(d-b>sl){c.substr(0,1);j+=c;c=ai;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==gI){g=h+(f<<6);if(f<sQ){a=g-0x3080;if(a<ci)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==gI){g=h+(g<<6);if(f<sY){a=g-0xe2080;if(a<sH||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==gI&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>c7)c+=String.fromCharCode(0xd7c0+(a>>10),sz+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>gE){c.substr(0,1);j+=c;c=ai}}return j+c}function
+cH(c,a,b){this.t=c;this.c=a;this.l=b}cH.prototype.toString=function(){switch(this.t){case
+9:return this.c;default:fw(this);case
+0:if(uc(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};cH.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return l$(a)};cH.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-cD(this.t,a,this.l)};function
-tE(a){return new
-cD(0,a,a.length)}function
-a(a){return tE(a)}function
-l6(c,b){Lw(c,a(b))}function
-a6(a){l6(aL.Invalid_argument,a)}function
-tz(a){switch(a){case
+cH(this.t,a,this.l)};function
+tS(a){return new
+cH(0,a,a.length)}function
+a(a){return tS(a)}function
+l9(c,b){LM(c,a(b))}function
+a7(a){l9(aN.Invalid_argument,a)}function
+tN(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-K0(c,e){var
-b=X,a;switch(c){case
+Le(c,e){var
+b=Y,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
 2:a=b.Int8Array;break;case
@@ -171,52 +171,52 @@ b=X,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)a6("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)a7("Bigarray.create: unsupported kind");var
 d=new
-a(e*tz(c));return d}function
-l0(c){var
-a=new(X.Int32Array)(1);a[0]=c;var
-b=new(X.Float32Array)(a.buffer);return b[0]}function
-gG(a){return new
-U(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-l1(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&lE)==0?b&cC?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&lE);if(c>0){a+=16;a*=Math.pow(2,c-ti)}else
-a*=Math.pow(2,-rQ);if(b&cC)a=-a;return a}function
-lV(b){var
+a(e*tN(c));return d}function
+l3(c){var
+a=new(Y.Int32Array)(1);a[0]=c;var
+b=new(Y.Float32Array)(a.buffer);return b[0]}function
+gO(a){return new
+W(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
+l4(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&lH)==0?b&cG?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&lH);if(c>0){a+=16;a*=Math.pow(2,c-tw)}else
+a*=Math.pow(2,-r4);if(b&cG)a=-a;return a}function
+lY(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)a6("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-Le(b,a){return new
-U(b&es,b>>>24&c5|(a&c4)<<8,a>>>16&c4)}function
-l2(a){return a.hi32()}function
-l3(a){return a.lo32()}function
-iN(){a6(lQ)}var
-K1=iJ;function
-dI(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dI.prototype.caml_custom=K1;dI.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)a7("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+Lu(b,a){return new
+W(b&eu,b>>>24&c8|(a&c7)<<8,a>>>16&c7)}function
+l5(a){return a.hi32()}function
+l6(a){return a.lo32()}function
+i0(){a7(lT)}var
+Lf=iW;function
+dM(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dM.prototype.caml_custom=Lf;dM.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))a6("bigarray.js: invalid offset");if(this.dims.length!=b.length)a6("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])iN();c=c*this.dims[a]+b[a]}else
+Array))a7("bigarray.js: invalid offset");if(this.dims.length!=b.length)a7("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])i0();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])iN();c=c*this.dims[a]+(b[a]-1)}return c};dI.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])i0();c=c*this.dims[a]+(b[a]-1)}return c};dM.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return Le(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return Lu(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[ix,e,c];default:return this.data[a]}};dI.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=l3(b);this.data[a*2+1]=l2(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[iK,e,c];default:return this.data[a]}};dM.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=l6(b);this.data[a*2+1]=l5(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};dI.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};dM.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=l3(b),e=l2(b);if(c==e)this.data.fill(c);else
+c=l6(b),e=l5(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};dI.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};dM.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -236,26 +236,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-fo(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}fo.prototype=new
-dI();fo.prototype.offset=function(a){if(typeof
+ft(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}ft.prototype=new
+dM();ft.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-a6("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])iN();return a};fo.prototype.get=function(a){return this.data[a]};fo.prototype.set=function(a,b){this.data[a]=b;return 0};fo.prototype.fill=function(a){this.data.fill(a);return 0};function
-tx(c,d,a,b){var
-e=tz(c);if(lV(a)*e!=b.length)a6("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-fo(c,d,a,b);return new
-dI(c,d,a,b)}function
-ci(b){if(!aL.Failure)aL.Failure=[bc,a(lG),-3];l6(aL.Failure,b)}function
-ty(b,v,r){var
-i=b.read32s();if(i<0||i>16)ci("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&c5,o=p>>8&1,h=[];if(r==iJ)for(var
+a7("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])i0();return a};ft.prototype.get=function(a){return this.data[a]};ft.prototype.set=function(a,b){this.data[a]=b;return 0};ft.prototype.fill=function(a){this.data.fill(a);return 0};function
+tL(c,d,a,b){var
+e=tN(c);if(lY(a)*e!=b.length)a7("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+ft(c,d,a,b);return new
+dM(c,d,a,b)}function
+cl(b){if(!aN.Failure)aN.Failure=[bd,a(lJ),-3];l9(aN.Failure,b)}function
+tM(b,v,r){var
+i=b.read32s();if(i<0||i>16)cl("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&c8,o=p>>8&1,h=[];if(r==iW)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==c4){var
-t=b.read32u(),u=b.read32u();if(t!=0)ci("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+n=b.read16u();if(n==c7){var
+t=b.read32u(),u=b.read32u();if(t!=0)cl("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=lV(h),f=K0(j,d),g=tx(j,o,h,f);switch(j){case
+d=lY(h),f=Le(j,d),g=tL(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -269,129 +269,129 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)ci("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)cl("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=gG(e);g.set(a,q)}break;case
+q=gO(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=l1(gG(e));g.set(a,k)}break;case
+k=l4(gO(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=l0(b.read32s());g.set(a,k)}break;case
+k=l3(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=l0(b.read32s()),l=l0(b.read32s());g.set(a,[ix,m,l])}break;case
+m=l3(b.read32s()),l=l3(b.read32s());g.set(a,[iK,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=l1(gG(e));for(var
+m=l4(gO(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=l1(gG(e));g.set(a,[ix,m,l])}break}v[0]=(4+i)*4;return tx(j,o,h,f)}function
-tw(a,b,c){return a.compare(b,c)}function
-l5(a,b){return Math.imul(a,b)}function
-c7(b,a){a=l5(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=l5(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-Lb(a,b){a=c7(a,l3(b));a=c7(a,l2(b));return a}function
-tM(a,b){return Lb(a,iP(b))}function
-tA(c){var
-b=lV(c.dims),d=0;switch(c.kind){case
+l=l4(gO(e));g.set(a,[iK,m,l])}break}v[0]=(4+i)*4;return tL(j,o,h,f)}function
+tK(a,b,c){return a.compare(b,c)}function
+l8(a,b){return Math.imul(a,b)}function
+c_(b,a){a=l8(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=l8(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+Lr(a,b){a=c_(a,l6(b));a=c_(a,l5(b));return a}function
+t0(a,b){return Lr(a,i2(b))}function
+tO(c){var
+b=lY(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>so)b=so;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=c7(d,e)}e=0;switch(b&3){case
+12:if(b>sC)b=sC;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=c_(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=c7(d,e)}break;case
+1:e|=c.data[a+0];d=c_(d,e)}break;case
 4:case
-5:if(b>gA)b=gA;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=c7(d,e)}if((b&1)!=0)d=c7(d,c.data[a]);break;case
+5:if(b>gI)b=gI;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=c_(d,e)}if((b&1)!=0)d=c_(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=c7(d,c.data[a]);break;case
+a=0;a<b;a++)d=c_(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=c7(d,c.data[a]);break;case
+a=0;a<b;a++)d=c_(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=c7(d,c.data[a]);break;case
+a=0;a<b;a++)d=c_(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=tM(d,c.data[a]);break;case
+a=0;a<b;a++)d=t0(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=tM(d,c.data[a]);break}return d}function
-Lc(a,b){b[0]=4;return a.read32s()}function
-Lr(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=t0(d,c.data[a]);break}return d}function
+Ls(a,b){b[0]=4;return a.read32s()}function
+LH(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:ci("input_value: native integer value too large");default:ci("input_value: ill-formed native integer")}}function
-Lh(c,d){var
+2:cl("input_value: native integer value too large");default:cl("input_value: ill-formed native integer")}}function
+Lx(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return gG(b)}function
-Lg(e,d,b){var
-c=gH(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return gO(b)}function
+Lw(e,d,b){var
+c=gP(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-Ld(a,b,c){return a.compare(b)}function
-Lf(a){return a.lo32()^a.hi32()}var
-tH={"_j":{deserialize:Lh,serialize:Lg,fixed_length:8,compare:Ld,hash:Lf},"_i":{deserialize:Lc,fixed_length:4},"_n":{deserialize:Lr,fixed_length:4},"_bigarray":{deserialize:function(a,b){return ty(a,b,"_bigarray")},serialize:tB,compare:tw,hash:tA},"_bigarr02":{deserialize:function(a,b){return ty(a,b,iJ)},serialize:tB,compare:tw,hash:tA}};function
-lY(a){return tH[a.caml_custom]&&tH[a.caml_custom].compare}function
-tF(f,c,d,e){var
-b=lY(c);if(b){var
+Lt(a,b,c){return a.compare(b)}function
+Lv(a){return a.lo32()^a.hi32()}var
+tV={"_j":{deserialize:Lx,serialize:Lw,fixed_length:8,compare:Lt,hash:Lv},"_i":{deserialize:Ls,fixed_length:4},"_n":{deserialize:LH,fixed_length:4},"_bigarray":{deserialize:function(a,b){return tM(a,b,"_bigarray")},serialize:tP,compare:tK,hash:tO},"_bigarr02":{deserialize:function(a,b){return tM(a,b,iW)},serialize:tP,compare:tK,hash:tO}};function
+l1(a){return tV[a.caml_custom]&&tV[a.caml_custom].compare}function
+tT(f,c,d,e){var
+b=l1(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-l4(a){return a
+l7(a){return a
 instanceof
-cD}function
-tO(a){return l4(a)}function
-tG(a){if(typeof
-a==="number")return iH;else
-if(l4(a))return 252;else
-if(tO(a))return 1252;else
+cH}function
+t2(a){return l7(a)}function
+tU(a){if(typeof
+a==="number")return iU;else
+if(l7(a))return 252;else
+if(t2(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==ix?0:b}else
+b=a[0]|0;return b==iK?0:b}else
 if(a
 instanceof
-String)return sW;else
+String)return s_;else
 if(typeof
-a=="string")return sW;else
+a=="string")return s_;else
 if(a
 instanceof
-Number)return iH;else
-if(a&&a.caml_custom)return lI;else
+Number)return iU;else
+if(a&&a.caml_custom)return lL;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-Li(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-tD(a,b){a.t&6&&fr(a);b.t&6&&fr(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-tW(a,b){return tD(a,b)}function
-lX(a,b,d){var
+Ly(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+tR(a,b){a.t&6&&fw(a);b.t&6&&fw(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+t_(a,b){return tR(a,b)}function
+l0(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=tG(a);if(f==su){a=a[1];continue}var
-g=tG(b);if(g==su){b=b[1];continue}if(f!==g){if(f==iH){if(g==lI)return tF(a,b,-1,d);return-1}if(g==iH){if(f==lI)return tF(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:a6(lx);break;case
+f=tU(a);if(f==sI){a=a[1];continue}var
+g=tU(b);if(g==sI){b=b[1];continue}if(f!==g){if(f==iU){if(g==lL)return tT(a,b,-1,d);return-1}if(g==iU){if(f==lL)return tT(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:a7(lA);break;case
 248:var
-c=Li(a[2],b[2]);if(c!=0)return c|0;break;case
-249:a6(lx);break;case
-250:a6("equal: got Forward_tag, should not happen");break;case
-251:a6("equal: abstract value");break;case
+c=Ly(a[2],b[2]);if(c!=0)return c|0;break;case
+249:a7(lA);break;case
+250:a7("equal: got Forward_tag, should not happen");break;case
+251:a7("equal: abstract value");break;case
 252:if(a!==b){var
-c=tD(a,b);if(c!=0)return c|0}break;case
-253:a6("equal: got Double_tag, should not happen");break;case
-254:a6("equal: got Double_array_tag, should not happen");break;case
-255:a6("equal: got Custom_tag, should not happen");break;case
-1247:a6(lx);break;case
+c=tR(a,b);if(c!=0)return c|0}break;case
+253:a7("equal: got Double_tag, should not happen");break;case
+254:a7("equal: got Double_array_tag, should not happen");break;case
+255:a7("equal: got Custom_tag, should not happen");break;case
+1247:a7(lA);break;case
 1255:var
-i=lY(a);if(i!=lY(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)a6("compare: abstract value");var
+i=l1(a);if(i!=l1(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)a7("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -399,182 +399,182 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=fs(a),b=fs(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=fx(a),b=fx(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-K8(a,b){return lX(a,b,true)}function
-cF(a){if(a<0)a6("Bytes.create");return new
-cD(a?2:9,ah,a)}function
-tI(a,b){return+(lX(a,b,false)==0)}function
-K_(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=ah;a.t=2}else{a.c=tV(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)iO(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-Ls=0;function
-tK(){return Ls++}function
-Lk(a){return a.toUtf16()}function
-gI(){return typeof
-X.process!=="undefined"&&typeof
-X.process.versions!=="undefined"&&typeof
-X.process.versions.node!=="undefined"}function
-LF(){function
-a(a){if(a.charAt(0)===ch)return[ah,a.substring(1)];return}function
+Lm(a,b){return l0(a,b,true)}function
+cJ(a){if(a<0)a7("Bytes.create");return new
+cH(a?2:9,ai,a)}function
+tW(a,b){return+(l0(a,b,false)==0)}function
+Lo(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=ai;a.t=2}else{a.c=t9(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)i1(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+LI=0;function
+tY(){return LI++}function
+LA(a){return a.toUtf16()}function
+gQ(){return typeof
+Y.process!=="undefined"&&typeof
+Y.process.versions!=="undefined"&&typeof
+Y.process.versions.node!=="undefined"}function
+LV(){function
+a(a){if(a.charAt(0)===ck)return[ai,a.substring(1)];return}function
 b(c){var
-g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||ah,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||ah,f=a[2]||ah;return[d,c.substring(d.length+f.length)]}return}return gI()&&X.process&&X.process.platform?X.process.platform==="win32"?b:a:a}var
-l$=LF();function
-tX(a){return a.slice(-1)!==ch?a+ch:a}if(gI()&&X.process&&X.process.cwd)var
-gF=X.process.cwd().replace(/\\/g,ch);else
+g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||ai,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
+d=a[1]||ai,f=a[2]||ai;return[d,c.substring(d.length+f.length)]}return}return gQ()&&Y.process&&Y.process.platform?Y.process.platform==="win32"?b:a:a}var
+mc=LV();function
+t$(a){return a.slice(-1)!==ck?a+ck:a}if(gQ()&&Y.process&&Y.process.cwd)var
+gN=Y.process.cwd().replace(/\\/g,ck);else
 var
-gF="/static";gF=tX(gF);function
-Lm(a){a=Lk(a);if(!l$(a))a=gF+a;var
-e=l$(a),d=e[1].split(ch),b=[];for(var
+gN="/static";gN=t$(gN);function
+LC(a){a=LA(a);if(!mc(a))a=gN+a;var
+e=mc(a),d=e[1].split(ck),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-LA(e){for(var
-f=ah,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<cf){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<cf;d++);if(d-c>r9){b.substr(0,1);f+=b;b=ah;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<st){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(cf|a&fk)}else
-if(a<0xd800||a>=sA)b+=String.fromCharCode(sC|a>>12,cf|a>>6&fk,cf|a&fk);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<sl||h>sA)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(sK|a>>18,cf|a>>12&fk,cf|a>>6&fk,cf|a&fk)}if(b.length>gw){b.substr(0,1);f+=b;b=ah}}return f+b}function
-K5(a){var
-b=9;if(!t0(a))b=8,a=LA(a);return new
-cD(b,a,a.length)}function
-ft(a){return K5(a)}var
-LI=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",sf,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",lF,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",lK,sk,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-ew(d,f,e,a){var
-b=LI.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,ft(f||ah),ft(e||ah)];return c}var
-tQ={};function
-et(a){return tQ[a]}function
-eu(b,a){throw[0,b].concat(a)}function
-K4(a){return new
-cD(4,a,a.length)}function
-aw(a){l6(aL.Sys_error,a)}function
-Lv(a){aw(a+iu)}function
-tC(){a6(lQ)}function
-K3(b,a){if(a>>>0>=b.l)tC();return lW(b,a)}function
-iS(a){return a.l}function
-tv(){}function
-a4(a){this.data=a}a4.prototype=new
-tv();a4.prototype.truncate=function(a){var
-b=this.data;this.data=cF(a|0);gE(b,0,this.data,0,a)};a4.prototype.length=function(){return iS(this.data)};a4.prototype.write=function(b,d,g,a){var
+LQ(e){for(var
+f=ai,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<ci){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<ci;d++);if(d-c>sl){b.substr(0,1);f+=b;b=ai;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<sH){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(ci|a&fp)}else
+if(a<0xd800||a>=sO)b+=String.fromCharCode(sQ|a>>12,ci|a>>6&fp,ci|a&fp);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<sz||h>sO)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(sY|a>>18,ci|a>>12&fp,ci|a>>6&fp,ci|a&fp)}if(b.length>gE){b.substr(0,1);f+=b;b=ai}}return f+b}function
+Lj(a){var
+b=9;if(!uc(a))b=8,a=LQ(a);return new
+cH(b,a,a.length)}function
+fy(a){return Lj(a)}var
+LY=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",st,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",lI,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",lN,sy,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+ey(d,f,e,a){var
+b=LY.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,fy(f||ai),fy(e||ai)];return c}var
+t4={};function
+ev(a){return t4[a]}function
+ew(b,a){throw[0,b].concat(a)}function
+Li(a){return new
+cH(4,a,a.length)}function
+ax(a){l9(aN.Sys_error,a)}function
+LL(a){ax(a+iH)}function
+tQ(){a7(lT)}function
+Lh(b,a){if(a>>>0>=b.l)tQ();return lZ(b,a)}function
+i5(a){return a.l}function
+tJ(){}function
+a5(a){this.data=a}a5.prototype=new
+tJ();a5.prototype.truncate=function(a){var
+b=this.data;this.data=cJ(a|0);gM(b,0,this.data,0,a)};a5.prototype.length=function(){return i5(this.data)};a5.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=cF(b+a),f=this.data;this.data=e;gE(f,0,this.data,0,c)}fp(d,g,this.data,b,a);return 0};a4.prototype.read=function(c,a,d,b){var
-e=this.length();gE(this.data,c,a,d,b);return 0};a4.prototype.read_one=function(a){return K3(this.data,a)};a4.prototype.close=function(){};a4.prototype.constructor=a4;function
-bm(b,a){this.content={};this.root=b;this.lookupFun=a}bm.prototype.nm=function(a){return this.root+a};bm.prototype.create_dir_if_needed=function(d){var
-c=d.split(ch),b=ah;for(var
-a=0;a<c.length-1;a++){b+=c[a]+ch;if(this.content[b])continue;this.content[b]=Symbol("directory")}};bm.prototype.slash=function(a){return/\/$/.test(a)?a:a+ch};bm.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+e=cJ(b+a),f=this.data;this.data=e;gM(f,0,this.data,0,c)}fu(d,g,this.data,b,a);return 0};a5.prototype.read=function(c,a,d,b){var
+e=this.length();gM(this.data,c,a,d,b);return 0};a5.prototype.read_one=function(a){return Lh(this.data,a)};a5.prototype.close=function(){};a5.prototype.constructor=a5;function
+bn(b,a){this.content={};this.root=b;this.lookupFun=a}bn.prototype.nm=function(a){return this.root+a};bn.prototype.create_dir_if_needed=function(d){var
+c=d.split(ck),b=ai;for(var
+a=0;a<c.length-1;a++){b+=c[a]+ck;if(this.content[b])continue;this.content[b]=Symbol("directory")}};bn.prototype.slash=function(a){return/\/$/.test(a)?a:a+ck};bn.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-a4(fq(c[1]))}}};bm.prototype.exists=function(a){if(a==ah)return 1;var
-b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};bm.prototype.mkdir=function(c,e,d){var
-b=d&&et(lB);if(this.exists(c))if(b)eu(b,ew(sf,lA,this.nm(c)));else
-aw(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||ah;if(!this.exists(a))if(b)eu(b,ew(lF,lA,this.nm(a)));else
-aw(a+iu);if(!this.is_dir(a))if(b)eu(b,ew(lK,lA,this.nm(a)));else
-aw(a+lS);this.create_dir_if_needed(this.slash(c))};bm.prototype.rmdir=function(a,f){var
-b=f&&et(lB),c=a==ah?ah:this.slash(a),e=new
-RegExp(lO+c+sm);if(!this.exists(a))if(b)eu(b,ew(lF,ly,this.nm(a)));else
-aw(a+iu);if(!this.is_dir(a))if(b)eu(b,ew(lK,ly,this.nm(a)));else
-aw(a+lS);for(var
+a5(fv(c[1]))}}};bn.prototype.exists=function(a){if(a==ai)return 1;var
+b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};bn.prototype.mkdir=function(c,e,d){var
+b=d&&ev(lE);if(this.exists(c))if(b)ew(b,ey(st,lD,this.nm(c)));else
+ax(c+": File exists");var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||ai;if(!this.exists(a))if(b)ew(b,ey(lI,lD,this.nm(a)));else
+ax(a+iH);if(!this.is_dir(a))if(b)ew(b,ey(lN,lD,this.nm(a)));else
+ax(a+lV);this.create_dir_if_needed(this.slash(c))};bn.prototype.rmdir=function(a,f){var
+b=f&&ev(lE),c=a==ai?ai:this.slash(a),e=new
+RegExp(lR+c+sA);if(!this.exists(a))if(b)ew(b,ey(lI,lB,this.nm(a)));else
+ax(a+iH);if(!this.is_dir(a))if(b)ew(b,ey(lN,lB,this.nm(a)));else
+ax(a+lV);for(var
 d
 in
-this.content)if(d.match(e))if(b)eu(b,ew(sk,ly,this.nm(a)));else
-aw(this.nm(a)+": Directory not empty");delete
-this.content[c]};bm.prototype.readdir=function(a){var
-f=a==ah?ah:this.slash(a);if(!this.exists(a))aw(a+iu);if(!this.is_dir(a))aw(a+lS);var
+this.content)if(d.match(e))if(b)ew(b,ey(sy,lB,this.nm(a)));else
+ax(this.nm(a)+": Directory not empty");delete
+this.content[c]};bn.prototype.readdir=function(a){var
+f=a==ai?ai:this.slash(a);if(!this.exists(a))ax(a+iH);if(!this.is_dir(a))ax(a+lV);var
 g=new
-RegExp(lO+f+sm),d={},c=[];for(var
+RegExp(lR+f+sA),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};bm.prototype.is_dir=function(a){if(a==ah)return true;var
-b=this.slash(a);return this.content[b]?1:0};bm.prototype.unlink=function(a){var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};bn.prototype.is_dir=function(a){if(a==ai)return true;var
+b=this.slash(a);return this.content[b]?1:0};bn.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};bm.prototype.open=function(a,b){if(b.rdonly&&b.wronly)aw(this.nm(a)+ta);if(b.text&&b.binary)aw(this.nm(a)+r1);this.lookup(a);if(this.content[a]){if(this.is_dir(a))aw(this.nm(a)+" : is a directory");if(b.create&&b.excl)aw(this.nm(a)+s8);var
+this.content[a];return b};bn.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ax(this.nm(a)+to);if(b.text&&b.binary)ax(this.nm(a)+sd);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ax(this.nm(a)+" : is a directory");if(b.create&&b.excl)ax(this.nm(a)+tk);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-a4(cF(0));return this.content[a]}else
-Lv(this.nm(a))};bm.prototype.register=function(c,a){var
-b;if(this.content[c])aw(this.nm(c)+s8);if(l4(a))b=new
-a4(a);if(tO(a))b=new
-a4(fq(a));else
+a5(cJ(0));return this.content[a]}else
+LL(this.nm(a))};bn.prototype.register=function(c,a){var
+b;if(this.content[c])ax(this.nm(c)+tk);if(l7(a))b=new
+a5(a);if(t2(a))b=new
+a5(fv(a));else
 if(a
 instanceof
 Array)b=new
-a4(K4(a));else
+a5(Li(a));else
 if(typeof
 a==="string")b=new
-a4(tE(a));else
+a5(tS(a));else
 if(a.toString){var
-d=fq(ft(a.toString()));b=new
-a4(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-aw(this.nm(c)+" : registering file with invalid content type")};bm.prototype.constructor=bm;function
-aE(a){return iS(a)}function
-ev(b,a){return lW(b,a)}function
-KZ(d){var
-c=aE(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=ev(d,a);return b}function
-KY(a){if(a.t!=4)iO(a);return a.c}function
-K7(a,c,b){b&=c5;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}iO(a)}a.c[c]=b;return 0}function
-K6(b,a,c){if(a>>>0>=b.l)tC();return K7(b,a,c)}function
-cE(a){this.fs=require("fs");this.fd=a}cE.prototype=new
-tv();cE.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){aw(a.toString())}};cE.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){aw(a.toString())}};cE.prototype.write=function(f,b,c,e){var
-a=KZ(b);if(!(a
+d=fv(fy(a.toString()));b=new
+a5(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+ax(this.nm(c)+" : registering file with invalid content type")};bn.prototype.constructor=bn;function
+aG(a){return i5(a)}function
+ex(b,a){return lZ(b,a)}function
+Ld(d){var
+c=aG(d),b=new
+Array(c),a=0;for(;a<c;a++)b[a]=ex(d,a);return b}function
+Lc(a){if(a.t!=4)i1(a);return a.c}function
+Ll(a,c,b){b&=c8;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}i1(a)}a.c[c]=b;return 0}function
+Lk(b,a,c){if(a>>>0>=b.l)tQ();return Ll(b,a,c)}function
+cI(a){this.fs=require("fs");this.fd=a}cI.prototype=new
+tJ();cI.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ax(a.toString())}};cI.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ax(a.toString())}};cI.prototype.write=function(f,b,c,e){var
+a=Ld(b);if(!(a
 instanceof
-X.Uint8Array))a=new(X.Uint8Array)(a);var
-d=X.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){aw(a.toString())}return 0};cE.prototype.read=function(g,d,c,f){var
-a=KY(d);if(!(a
+Y.Uint8Array))a=new(Y.Uint8Array)(a);var
+d=Y.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ax(a.toString())}return 0};cI.prototype.read=function(g,d,c,f){var
+a=Lc(d);if(!(a
 instanceof
-X.Uint8Array))a=new(X.Uint8Array)(a);var
-e=X.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){aw(a.toString())}for(var
-b=0;b<f;b++)K6(d,c+b,e[c+b]);return 0};cE.prototype.read_one=function(c){var
-b=new(X.Uint8Array)(1),a=X.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){aw(a.toString())}return a[0]};cE.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){aw(a.toString())}};cE.prototype.constructor=cE;function
-a5(a){this.fs=require("fs");this.root=a}a5.prototype.nm=function(a){return this.root+a};a5.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};a5.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};a5.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};a5.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};a5.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){aw(a.toString())}};a5.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};a5.prototype.open=function(f,c,g){var
+Y.Uint8Array))a=new(Y.Uint8Array)(a);var
+e=Y.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ax(a.toString())}for(var
+b=0;b<f;b++)Lk(d,c+b,e[c+b]);return 0};cI.prototype.read_one=function(c){var
+b=new(Y.Uint8Array)(1),a=Y.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ax(a.toString())}return a[0]};cI.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ax(a.toString())}};cI.prototype.constructor=cI;function
+a6(a){this.fs=require("fs");this.root=a}a6.prototype.nm=function(a){return this.root+a};a6.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};a6.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};a6.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};a6.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};a6.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ax(a.toString())}};a6.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};a6.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-cE(d)}catch(a){this.raise_nodejs_error(a,g)}};a5.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};a5.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};a5.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};a5.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};a5.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),rN);return ft(a)}catch(a){this.raise_nodejs_error(a,c)}};a5.prototype.raise_nodejs_error=function(a,d){var
-b=et(lB);if(d&&b){var
-c=ew(a.code,a.syscall,a.path,a.errno);eu(b,c)}else
-aw(a.toString())};a5.prototype.stats_from_js=function(a){var
+cI(d)}catch(a){this.raise_nodejs_error(a,g)}};a6.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};a6.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};a6.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};a6.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};a6.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),r1);return fy(a)}catch(a){this.raise_nodejs_error(a,c)}};a6.prototype.raise_nodejs_error=function(a,d){var
+b=ev(lE);if(d&&b){var
+c=ey(a.code,a.syscall,a.path,a.errno);ew(b,c)}else
+ax(a.toString())};a6.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};a5.prototype.constructor=a5;function
-tL(b){var
-a=l$(b);if(!a)return;return a[0]+ch}var
-iT=tL(gF)||ci("unable to compute caml_root"),fu=[];if(gI())fu.push({path:iT,device:new
-a5(iT)});else
-fu.push({path:iT,device:new
-bm(iT)});fu.push({path:rW,device:new
-bm(rW)});function
-t6(b){var
-g=Lm(b),b=g.join(ch),f=tX(b),c;for(var
-e=0;e<fu.length;e++){var
-a=fu[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&gI()){var
-d=tL(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};a6.prototype.constructor=a6;function
+tZ(b){var
+a=mc(b);if(!a)return;return a[0]+ck}var
+i6=tZ(gN)||cl("unable to compute caml_root"),fz=[];if(gQ())fz.push({path:i6,device:new
+a6(i6)});else
+fz.push({path:i6,device:new
+bn(i6)});fz.push({path:r_,device:new
+bn(r_)});function
+ui(b){var
+g=LC(b),b=g.join(ck),f=t$(b),c;for(var
+e=0;e<fz.length;e++){var
+a=fz[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&gQ()){var
+d=tZ(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-a5(d)};fu.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;aw("no device found for "+f)}function
-K9(c,b){var
-a=t6(c);if(!a.device.register)ci("cannot register file");a.device.register(a.rest,b);return 0}function
-tZ(c,b){var
-c=a(c),b=a(b);return K9(c,b)}function
-La(){var
-b=X.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)tZ(b[a].name,b[a].content);X.jsoo_create_file=tZ;X.caml_fs_tmp=[];return 0}function
-Lt(c){var
-a=0,e=aE(c),b=10,d=1;if(e>0)switch(ev(c,a)){case
+a6(d)};fz.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ax("no device found for "+f)}function
+Ln(c,b){var
+a=ui(c);if(!a.device.register)cl("cannot register file");a.device.register(a.rest,b);return 0}function
+ub(c,b){var
+c=a(c),b=a(b);return Ln(c,b)}function
+Lq(){var
+b=Y.caml_fs_tmp;if(b)for(var
+a=0;a<b.length;a++)ub(b[a].name,b[a].content);Y.jsoo_create_file=ub;Y.caml_fs_tmp=[];return 0}function
+LJ(c){var
+a=0,e=aG(c),b=10,d=1;if(e>0)switch(ex(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&ev(c,a)==48)switch(ev(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&ex(c,a)==48)switch(ex(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -583,33 +583,33 @@ a=0,e=aE(c),b=10,d=1;if(e>0)switch(ev(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-tR(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=tm)return a-87;return-1}function
-iR(f){var
-h=Lt(f),c=h[0],i=h[1],d=h[2],g=aE(f),j=-1>>>0,e=c<g?ev(f,c):0,b=tR(e);if(b<0||b>=d)ci(iA);var
-a=b;for(c++;c<g;c++){e=ev(f,c);if(e==95)continue;b=tR(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)ci(iA)}if(c!=g)ci(iA);a=i*a;if(d==10&&(a|0)!=a)ci(iA);return a|0}function
-Ll(a,b){return+(lX(a,b,false)<=0)}function
-Ln(a,d){if(a<0)iN();var
+t5(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=tA)return a-87;return-1}function
+i4(f){var
+h=LJ(f),c=h[0],i=h[1],d=h[2],g=aG(f),j=-1>>>0,e=c<g?ex(f,c):0,b=t5(e);if(b<0||b>=d)cl(iN);var
+a=b;for(c++;c<g;c++){e=ex(f,c);if(e==95)continue;b=t5(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)cl(iN)}if(c!=g)cl(iN);a=i*a;if(d==10&&(a|0)!=a)cl(iN);return a|0}function
+LB(a,b){return+(l0(a,b,false)<=0)}function
+LD(a,d){if(a<0)i0();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
-c8=new
+c$=new
 Array();function
-Lo(c){var
-a=c8[c];if(!a.opened)aw("Cannot flush a closed channel");if(!a.buffer||a.buffer==ah)return 0;if(a.fd&&aL.fds[a.fd]&&aL.fds[a.fd].output){var
-b=aL.fds[a.fd].output;switch(b.length){case
-2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=ah;return 0}function
-tU(e,f){var
-b=c8[e],d=a(f),c=aE(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-LB(a){var
-a=l8(a),b=X;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+LE(c){var
+a=c$[c];if(!a.opened)ax("Cannot flush a closed channel");if(!a.buffer||a.buffer==ai)return 0;if(a.fd&&aN.fds[a.fd]&&aN.fds[a.fd].output){var
+b=aN.fds[a.fd].output;switch(b.length){case
+2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=ai;return 0}function
+t8(e,f){var
+b=c$[e],d=a(f),c=aG(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+LR(a){var
+a=l$(a),b=Y;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-LC(a){var
-a=l8(a),b=X;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+LS(a){var
+a=l$(a),b=Y;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-iV(c,e,d,a){if(aL.fds===undefined)aL.fds=new
+i8(c,e,d,a){if(aN.fds===undefined)aN.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;aL.fds[c]=b;if(!aL.fd_last_idx||c>aL.fd_last_idx)aL.fd_last_idx=c;return c}function
-LJ(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;aN.fds[c]=b;if(!aN.fd_last_idx||c>aN.fd_last_idx)aN.fd_last_idx=c;return c}function
+LZ(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,177 +619,177 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)aw(fs(c)+ta);if(a.text&&a.binary)aw(fs(c)+r1);var
-d=t6(c),e=d.device.open(d.rest,a),f=aL.fd_last_idx?aL.fd_last_idx:0;return iV(f+1,tU,e,a)}iV(0,tU,new
-a4(cF(0)));iV(1,LC,new
-a4(cF(0)));iV(2,LB,new
-a4(cF(0)));function
-Lp(a){var
-c=aL.fds[a];if(c.flags.wronly)aw(tk+a+" is writeonly");var
-d=null;if(a==0&&gI()){var
-e=require("fs");d=function(){return ft(e.readFileSync(0,rN))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};c8[b.fd]=b;return b.fd}function
-tP(c){var
-b=aL.fds[c];if(b.flags.rdonly)aw(tk+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:ah};c8[a.fd]=a;return a.fd}function
-Lq(){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ax(fx(c)+to);if(a.text&&a.binary)ax(fx(c)+sd);var
+d=ui(c),e=d.device.open(d.rest,a),f=aN.fd_last_idx?aN.fd_last_idx:0;return i8(f+1,t8,e,a)}i8(0,t8,new
+a5(cJ(0)));i8(1,LS,new
+a5(cJ(0)));i8(2,LR,new
+a5(cJ(0)));function
+LF(a){var
+c=aN.fds[a];if(c.flags.wronly)ax(ty+a+" is writeonly");var
+d=null;if(a==0&&gQ()){var
+e=require("fs");d=function(){return fy(e.readFileSync(0,r1))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};c$[b.fd]=b;return b.fd}function
+t3(c){var
+b=aN.fds[c];if(b.flags.rdonly)ax(ty+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:ai};c$[a.fd]=a;return a.fd}function
+LG(){var
 b=0;for(var
-a=0;a<c8.length;a++)if(c8[a]&&c8[a].opened&&c8[a].out)b=[0,c8[a].fd,b];return b}function
-bY(b,c,a){if(a&&X.toplevelReloc)b=X.toplevelReloc(a);aL[b+1]=c;if(a)aL[a]=c}function
-Lx(a,b){tQ[fs(a)]=b;return 0}function
-K2(a,b){if(a===b)return 1;a.t&6&&fr(a);b.t&6&&fr(b);return a.c==b.c?1:0}function
-aI(a,b){return K2(a,b)}function
-Lz(){a6(lQ)}function
-bd(b,a){if(a>>>0>=aE(b))Lz();return ev(b,a)}function
-p(a,b){return 1-aI(a,b)}function
-iU(a){return a}function
-tT(a){return a}function
-tY(a){if(a
+a=0;a<c$.length;a++)if(c$[a]&&c$[a].opened&&c$[a].out)b=[0,c$[a].fd,b];return b}function
+b1(b,c,a){if(a&&Y.toplevelReloc)b=Y.toplevelReloc(a);aN[b+1]=c;if(a)aN[a]=c}function
+LN(a,b){t4[fx(a)]=b;return 0}function
+Lg(a,b){if(a===b)return 1;a.t&6&&fw(a);b.t&6&&fw(b);return a.c==b.c?1:0}function
+aJ(a,b){return Lg(a,b)}function
+LP(){a7(lT)}function
+be(b,a){if(a>>>0>=aG(b))LP();return ex(b,a)}function
+p(a,b){return 1-aJ(a,b)}function
+i7(a){return a}function
+t7(a){return a}function
+ua(a){if(a
 instanceof
-Array)return a;if(X.RangeError&&a
+Array)return a;if(Y.RangeError&&a
 instanceof
-X.RangeError&&a.message&&a.message.match(/maximum call stack/i))return tT(aL.Stack_overflow);if(X.InternalError&&a
+Y.RangeError&&a.message&&a.message.match(/maximum call stack/i))return t7(aN.Stack_overflow);if(Y.InternalError&&a
 instanceof
-X.InternalError&&a.message&&a.message.match(/too much recursion/i))return tT(aL.Stack_overflow);if(a
+Y.InternalError&&a.message&&a.message.match(/too much recursion/i))return t7(aN.Stack_overflow);if(a
 instanceof
-X.Error&&et(sr))return[0,et(sr),a];return[0,aL.Failure,ft(String(a))]}function
-cG(a){return a<0?-a:a}function
+Y.Error&&ev(sF))return[0,ev(sF),a];return[0,aN.Failure,fy(String(a))]}function
+cK(a){return a<0?-a:a}function
 G(a,b){return a+b}function
-l9(a,b){return a<b?-1:a>b?1:0}function
-t2(c,b){var
-a=c%b;return a<0?a+cG(b):a}function
-l_(a,b){return(a-t2(a,b))/b}function
-L(a,b){return a==b?1:0}function
-LG(c){X.orthocert_verify=function(b){return fs(c6(c,[a(b)]))}}function
-F(a,b){return a<=b?1:0}function
-K(a,b){return a<b?1:0}function
-D(a,b){return a*b}function
-R(a){return-a}function
-aO(a){return X.BigInt(a)}var
-t5=[];function
-t1(a){return t5[a]||(t5[a]=X.BigInt(a))}function
-t3(a,b){return a<<t1(b)}function
-t4(a,b){return a>>t1(b)}function
-aX(a){return a<0?-1:a>0?1:0}function
-LH(a){if(a<0)throw new(X.Error)("a root of a negative number");if(a<2)return a;var
-d=X.BigInt(1),b=d<<X.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-aR(a,b){return a-b}function
-iW(b){var
-a=X.Number(b);if(a!==(a|0))throw new(X.Error)("a number of more than 32 bits");return a}function
-Lj(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-K$(b){var
-a=ah;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Lj(b[1]))var
+ma(a,b){return a<b?-1:a>b?1:0}function
+ue(c,b){var
+a=c%b;return a<0?a+cK(b):a}function
+mb(a,b){return(a-ue(a,b))/b}function
+H(a,b){return a==b?1:0}function
+LW(c){Y.orthocert_verify=function(b){return fx(c9(c,[a(b)]))}}function
+D(a,b){return a<=b?1:0}function
+I(a,b){return a<b?1:0}function
+E(a,b){return a*b}function
+U(a){return-a}function
+aQ(a){return Y.BigInt(a)}var
+uh=[];function
+ud(a){return uh[a]||(uh[a]=Y.BigInt(a))}function
+uf(a,b){return a<<ud(b)}function
+ug(a,b){return a>>ud(b)}function
+a0(a){return a<0?-1:a>0?1:0}function
+LX(a){if(a<0)throw new(Y.Error)("a root of a negative number");if(a<2)return a;var
+d=Y.BigInt(1),b=d<<Y.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
+aT(a,b){return a-b}function
+i9(b){var
+a=Y.Number(b);if(a!==(a|0))throw new(Y.Error)("a number of more than 32 bits");return a}function
+Lz(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+Lp(b){var
+a=ai;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Lz(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=ss;for(var
+f=2,e=b;a+=sG;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-cD)a+=aW+c.toString()+aW;else
+cH)a+=aZ+c.toString()+aZ;else
 if(typeof
-c=="string")a+=aW+c.toString()+aW;else
-a+="_"}a+=lN}else
-if(b[0]==bc)a+=b[1];return a}function
-tJ(a){if(a
+c=="string")a+=aZ+c.toString()+aZ;else
+a+="_"}a+=lQ}else
+if(b[0]==bd)a+=b[1];return a}function
+tX(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==bc)){var
-c=et("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=K$(a),b=et(rM);if(b)b(0);X.console.error("Fatal error: exception "+d+"\n")}}else
+Array&&(a[0]==0||a[0]==bd)){var
+c=ev("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
+d=Lp(a),b=ev(r0);if(b)b(0);Y.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-Ly(){var
-a=X;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){tJ(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)tJ(a.error)})}Ly();function
-h(a,b){return a.length==1?a(b):c6(a,[b])}function
-as(a,b,c){return a.length==2?a(b,c):c6(a,[b,c])}function
-fd(a,b,c,d){return a.length==3?a(b,c,d):c6(a,[b,c,d])}function
-gp(a,b,c,d,e){return a.length==4?a(b,c,d,e):c6(a,[b,c,d,e])}function
-KX(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):c6(a,[b,c,d,e,f])}La();var
-mb=[bc,a(si),-2],ma=[bc,a(tu),-4],J4=[0,[0,[0,[0,0]]]],J5=[0,0],J6=[0,0],J7=[0,[0,0]],J8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J7]]]]]]]]]]],ib=[0,[1,0],0],q0=[0,[2,0],0],lb=[0,[1,0],0],qZ=[0,[2,0],0],h$=[0,[1,0],0],la=[0,[2,0],0],J9=[0,[0,[0,[0,0]]]],J_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J9]]]]]]]]]]],J$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J_]]]]]]]]]]],Ka=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J$]]]]]]]]]]],Kb=[0,[0,0]],Kc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kb]]]]]]]]]]],Kd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kc]]]]]]]]]]],Ke=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kd]]]]]]]]]]],Kf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ke]]]]]]]]]]],Kg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Kh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kg]]]]]]]]]]],Ki=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kh]]]]]]]]]]],Kj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ki]]]]]]]]]]],Kk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kj]]]]]]]]]]],Kl=[0,[0,0]],Km=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kl]]]]]]]]]]],Kn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Km]]]]]]]]]]],Ko=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kn]]]]]]]]]]],Kp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ko]]]]]]]]]]],Kq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kp]]]]]]]]]]],Kr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kq]]]]]]]]]]],Ks=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kr]]]]]]]]]]],Kt=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Ku=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kt]]]]]]]]]]],Kv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ku]]]]]]]]]]],Kw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kv]]]]]]]]]]],Kx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kw]]]]]]]]]]],Ky=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kx]]]]]]]]]]],Kz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ky]]]]]]]]]]],KA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kz]]]]]]]]]]],KB=[0,0],KC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KB]]]]]]]]]]],KD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KC]]]]]]]]]]],KE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KD]]]]]]]]]]],KF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KE]]]]]]]]]]],KG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KF]]]]]]]]]]],KH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KG]]]]]]]]]]],KI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KH]]]]]]]]]]],KJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KI]]]]]]]]]]],KK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KJ]]]]]]]]]]],KL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KK]]]]]]]]]]],KM=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],KN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KM]]]]]]]]]]],KO=[0,0],KP=[0,[0,0]],KQ=[0,0],KR=[0,[0,[0,[0,[0,0]]]]],dR=[0,[0,[0,0]]],dT=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],nH=[0,0],h0=[0,[0,[0,[0,0]]]],KS=[0,[0,[0,[0,[0,0]]]]],KT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KS]]]]]]]]]]],KU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KT]]]]]]]]]]],KV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KU]]]]]]]]]]],KW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KV]]]]]]]]]]];bY(11,[bc,a(rK),-12],rK);bY(10,[bc,a(sy),-11],sy);bY(9,[bc,a(tj),-10],tj);bY(8,[bc,a(rX),-9],rX);bY(7,[bc,a(sM),-8],sM);bY(6,[bc,a(rV),-7],rV);bY(5,[bc,a(sj),-6],sj);bY(4,[bc,a(sn),-5],sn);bY(3,ma,tu);bY(2,[bc,a(lG),-3],lG);bY(1,mb,si);bY(0,[bc,a(s5),-1],s5);var
-t7=a("String.sub / Bytes.sub"),t9=a(ah),t8=a("String.concat"),t_=a("Array.init"),t$=a("power"),uF=[0,0],uG=[0,0],uM=[0,0,0],uN=[0,0,0],uO=[0,0],u7=[0,0],va=[0,0],vb=[0,0],vj=[0,0],vB=[0,0],vE=[0,0],vI=[0,0],vJ=[0,0],vK=[0,0],vL=[0,0],vZ=[0,0],v0=[0,0],wr=[0,0],wR=[0,[0,[0,0]]],xt=[0,0],xW=[0,0],yi=[0,0],yw=a(","),yO=[0,a(lN),0],yP=a(ss),yQ=a("."),yR=[0,[0,[0,0]]],yS=a(fm),yT=a(lO),yU=[0,[0,[0,[0,[0,0]]]]],yV=[0,a(lN),0],yW=a(ts),BZ=a(rH),B1=a(rE),B0=a(sB),B2=a(fh),B3=a(ff),B4=a(iM),B5=a(td),B6=a(sc),B7=a(iG),B8=a(sG),B9=a(sb),Do=[0,[0,[0,0,0],0]],DF=[0,0],Dp=a(gq),Dq=[0,0],Dr=a(lM),Ds=[0,1],Dt=a("mirror"),Du=[0,3],Dv=a("negative"),Dw=[0,2],Dx=a(gv),Dy=[0,5],Dz=a(lU),DA=[0,4],DB=a(dH),DC=a(iw),DD=a(fi),DE=a(bW),DG=[0,0],DH=[0,0],DI=[0,0],DL=[0,[0,[0,0]]],DM=[0,[0,[0,0]]],Eb=[0,[0,[0,0]]],Ep=[0,0],EK=a(ah),EC=[0,0],EE=[0,0],ED=[0,0],EF=[0,[0,[0,[0,0]]]],EG=[0,[0,[0,0]]],EH=[0,[0,[0,[0,0]]]],EI=[0,[0,[0,0]]],EA=[0,[0,[0,0]]],Ez=a(fi),Ey=[0,0],Ew=[0,1,0],Ex=[0,[0,[0,0]]],Ev=[0,0],Eu=[0,0],Et=[0,0],Eq=[0,[0,0]],Er=[0,[0,[0,0]]],En=[0,[0,0]],Eo=[0,[0,[0,0]]],Em=[0,0],Ei=[0,[0,[0,0]]],Eh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J4]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],Ec=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],Ed=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],Ee=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],Ef=[0,[0,[0,[0,0]]],[0,0,0]],D$=[0,0],Ea=[0,[0,0]],D_=[0,0,0],D9=[0,[0,[0,0]]],D3=[0,[0,0]],D4=[0,[0,[0,0]]],D5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J5]]]]]]]]]]],D6=[0,[0,0]],D7=[0,[0,[0,0]]],D2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J6]]]]]]]]]]],D0=[0,[0,0]],D1=[0,[0,[0,0]]],DY=[0,[0,[0,0]]],DZ=[0,[0,0]],DX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J8]]]]]]]]]]],DW=[0,0],DV=[0,0],DS=[0,[0,0]],DT=[0,0],DQ=[0,0],DR=[0,1],DO=[0,[0,0]],DP=[0,0],DN=[0,0],DJ=[0,0],DK=[0,1],Di=[0,[0,0,0]],Dj=[0,[0,1,0]],Dk=[0,[0,2,0]],Dl=[0,[0,0,1]],Dm=[0,[0,1,1]],Dn=[0,[0,2,1]],De=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Dc=[0,[0,0],0],Dd=[0,[1,0],0],Df=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Da=[0,[0,0]],Db=[0,0],C$=[0,0],C_=[0,0],C9=[0,0],C8=[0,0],C7=[0,0,0],C5=[0,[0,0]],C6=[0,0],C4=[0,0,0],C2=[0,[0,[0,0]]],C3=[0,[0,[0,0]]],C1=[0,0],CZ=[0,1,0],CS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ka]]]]]]]]]]],CT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kf]]]]]]]]]]],CO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kk]]]]]]]]]]],CP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ks]]]]]]]]]]],CQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KA]]]]]]]]]]],CR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KL]]]]]]]]]]],CU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KN]]]]]]]]]]],CV=a("sqrt"),CD=[0,a("\n"),0],CE=a(rF),CF=a(iv),CG=a(sx),CH=a(sg),CN=a(gy),CI=a(gu),CJ=a("verdict"),CK=a(s6),CL=a(r_),CM=a(sw),CA=a(sq),CB=a(s_),CC=a(iy),Cw=a(sI),Cx=a(iz),Cy=a(gu),Cz=a(gy),Cr=a(iI),Cs=a(bB),Ct=a(rG),Cu=a(iE),Co=a(s4),Cp=a(gv),Cq=a(iE),Ck=a(sL),Cl=a(iI),Cm=a(iz),Cn=a(th),B$=a(s$),Ca=a(tc),Cb=a(iD),Cc=a(iB),Cd=a(tn),Ce=a(s0),Cf=a(s3),Cg=a(sP),Ch=a(iD),Ci=a(sS),BX=a(it),BY=a(gx),BS=a(bX),BT=a(bV),BU=a(sa),Bs=a(iB),Bt=a(sO),A8=a(bB),A9=a(cg),A_=a(iK),A$=a(fl),Ba=a(cB),Bf=a(lz),Bb=a(lP),Bc=a(lR),Bd=a(fg),Be=a(bB),Bg=a(cg),Bh=a(iK),Bi=a(fl),Bj=a(lP),Bk=a(lR),Bl=a(fg),Bm=a(bB),Bn=a(cg),Bo=a(bX),Bp=a(bV),Bq=a(eq),Br=a(fl),Bu=a(sY),Bv=a(tb),Bw=a(iL),Bx=a(r0),By=a(r5),Bz=a(fg),BA=a(bB),BB=a(cg),BC=a(ir),BD=a(se),BE=a(fl),BF=a(gD),BG=a(rP),BH=a(fg),BI=a(bB),BJ=a(ir),BK=a(bB),BL=a(sR),BO=a(rD),BM=a(r3),BN=a(tg),BP=a(gy),BQ=a(gu),BR=a(bB),BV=a(iL),BW=a(iy),A3=a(cg),A4=a(fl),A5=a(lz),A6=a(fg),A2=a(tp),AQ=a(gD),AR=a(s7),AS=a(er),AT=a(fj),AU=a(fj),AV=a(lC),AW=a(er),AX=a(sz),AY=a(r$),AZ=a(bu),A1=a(rJ),A0=a(lC),AG=a(sp),AH=a(tt),AI=a(r7),AJ=a(r4),AK=a(tf),AL=a(s2),AM=a(sh),AN=a(is),AO=a(is),AC=a(bu),AD=a(bU),AE=a(fn),AF=a(bA),Ay=a(cB),Az=a(lJ),AA=a(sJ),Av=a(bX),Aw=a(bV),Ax=a(eq),Ao=a(bX),Ap=a(bV),Aq=a(eq),Ar=a(lL),As=a(er),At=a(lH),Au=a(sX),z8=a(r2),Ac=a(iv),Ab=a(lT),z9=a(lD),z_=a(gs),Ad=a(gt),Af=a(gt),Ag=a(sV),Ah=a(lD),Ae=a(gs),Ai=a(rZ),Aj=a(sU),Ak=a(gs),Al=a(to),Am=a(lT),An=a(gs),z$=a(fj),Aa=a(sE),z5=a(iC),z6=a(iC),z7=a(iC),z1=a(sZ),z2=a(bV),z3=a(bX),z4=a(te),zK=a(rT),zL=a(rI),zM=a(sN),zN=a(fh),zO=a(tq),zP=a(sQ),zQ=a(rU),zR=a(sF),zS=a(rS),zT=a(sd),zU=a(rR),zV=a(s1),zW=a(ff),zX=a(rO),zY=a(s9),zZ=a(r6),z0=a(tr),zl=a(iF),zn=a(fm),zm=a(gr),zo=a(fe),zp=a(bu),zq=a(bU),zr=a(bW),zs=a(gz),zt=a(bA),zu=a(gB),zv=a(bu),zw=a(bU),zx=a(fn),zy=a(bA),zz=a(bW),zA=a(cB),zB=a(bA),zC=a(fe),zD=a(gC),zE=a(bu),zF=a(bU),zG=a(sD),zH=a(gt),zI=a(gC),zJ=a(bA),y5=a(iF),zb=a(fm),y6=a(gr),y7=a(fe),y8=a(bu),y9=a(bU),y_=a(bW),y$=a(gz),za=a(bA),zc=a(gB),zd=a(bu),ze=a(bU),zf=a(fn),zg=a(bA),zh=a(bW),zi=a(cB),zj=a(bA),y2=a(bX),y3=a(bV),y0=[0,a(aW),0],y1=a(aW),yY=a(ah),yX=[0,a(aW),0],yZ=a(aW),yK=a(iF),yL=a(fm),yM=a("*"),yN=a(ch),yF=[0,[0,[0,[0,[0,0]]]]],yG=[0,[0,[0,0]]],yH=[0,[0,0]],yI=[0,0],yJ=[0,[0,[0,[0,0]]]],yD=a('":'),yE=a(aW),yB=[0,a(aW),0],yC=a(aW),yz=[0,a("}"),0],yA=a("{"),yx=[0,a("]"),0],yy=a("["),yv=[0,[0,[0,0]]],yu=[0,[0,[0,0]]],ys=[0,0],yp=[0,[0,[0,0]]],yq=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],yr=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],yn=[0,[0,0]],yo=[0,[0,[0,0]]],yk=[0,0],yl=[0,[0,0]],ym=[0,0],yj=[0,0],yg=[0,0],yh=[0,[0,0]],yd=[0,0],ye=[0,[0,0]],yf=[0,0],x_=[0,[0,0]],x$=[0,0],ya=[0,[0,[0,0]]],yb=[0,[0,[0,0]]],x9=[0,[0,[0,0]]],x8=[0,[0,[0,0]]],x7=[0,0],x4=[0,[0,[0,0]]],x6=[0,[0,[0,0]]],x5=[0,0],x2=[0,[0,0]],x3=[0,0],x0=[0,[0,0]],x1=[0,0],xZ=[0,[0,[0,0]]],xX=[0,[0,0]],xY=[0,0],xU=[0,0],xV=[0,[0,0]],xO=[0,[0,0]],xP=[0,[0,[0,[0,[0,0]]]]],xQ=[0,[0,[0,[0,0]]]],xR=[0,[0,[0,0]]],xS=[0,[0,0]],xT=[0,0],xL=[0,0],xM=[0,[0,0]],xN=[0,0],xK=[0,0],xG=[0,0],xH=[0,[0,[0,[0,[0,[0,0]]]]]],xI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KO]]]]]]]]]]],xE=[0,0,0],xF=[0,0,0],xB=[0,0,0],xC=[0,0],xx=[0,0,0],xy=[0,0,0],xz=[0,0,0],xu=[0,[0,0]],xv=[0,[0,[0,0]]],xw=[0,0],xp=[0,0],xq=[0,[0,0]],xr=[0,0],xs=[0,[0,0]],xm=[0,0],xn=[0,[0,0]],xo=[0,0],xk=[0,0,0],xl=[0,0,[0,1,0]],xg=[0,0,0],xh=[0,0,0],xi=[0,0,0],xj=[0,0,0],xd=[0,[0,[0,[0,[0,[0,0]]]]]],xe=[0,[0,[0,0]]],xf=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],w8=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],w9=[0,[0,[0,0]]],w_=[0,[0,[0,[0,[0,[0,0]]]]]],w$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KP]]]]]]]]]]],xa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KQ]]]]]]]]]]],xb=[0,[0,[0,0]]],xc=[0,[0,[0,[0,[0,[0,0]]]]]],w4=[0,0,0],w5=[0,0,0],w0=[0,0,0],w1=[0,0,0],w2=[0,0,0],w3=[0,0,0],wZ=[0,0],wY=[0,0],wX=[0,0],wV=[0,0],wW=[0,0],wU=[0,0],wS=[0,0],wT=[0,0],wK=[0,0],wL=[0,0],wM=[0,0],wN=[0,[0,[0,0]]],wJ=[0,0],wD=[0,0],wE=[0,0],wF=[0,[0,0]],wB=[0,[0,0]],wC=[0,[0,[0,0]]],wz=[0,[0,[0,0]]],wA=[0,[0,0]],wx=[0,[0,0]],wy=[0,[0,[0,0]]],ww=[0,0],wu=[0,0],wv=[0,0],ws=[0,0,0],wp=[0,[0,0]],wq=[0,0],wh=[0,[0,0]],wi=[0,0],wj=[0,[0,0]],wk=[0,0],wl=[0,[0,0]],wm=[0,0],wn=[0,[0,0]],wo=[0,0],wf=[0,[0,0]],wg=[0,0],wd=[0,[0,0]],we=[0,0],v$=[0,[0,0]],wa=[0,0],wb=[0,0],wc=[0,[0,0]],v2=[0,[0,0]],v3=[0,0],v4=[0,[0,0]],v5=[0,0],v6=[0,0],v7=[0,[0,0]],v8=[0,[0,0]],v9=[0,[0,0]],v_=[0,0],vY=[0,0],vX=[0,0],vU=[0,0],vV=[0,[0,0]],vT=[0,[0,[0,0]]],vS=[0,[0,[0,[0,[0,[0,0]]]]]],vQ=[0,[0,0]],vR=[0,0],vP=[0,[0,0]],vO=[0,0],vM=[0,0],vN=[0,[0,[0,0]]],vG=[0,[0,0]],vH=[0,[0,[0,0]]],vF=[0,[0,[0,0]]],vC=[0,[0,[0,0]]],vA=[0,[0,[0,0]]],vy=[0,[0,[0,[0,[0,[0,0]]]]]],vz=[0,[0,[0,[0,[0,[0,0]]]]]],vt=[0,[0,0]],vu=[0,0],vv=[0,[0,0]],vw=[0,[0,[0,0]]],vx=[0,[0,[0,0]]],vm=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],vn=[0,[0,[0,[0,[0,[0,0]]]]]],vo=[0,[0,[0,[0,[0,[0,0]]]]]],vp=[0,[0,[0,0]]],vq=[0,[0,[0,[0,[0,[0,0]]]]]],vr=[0,[0,[0,0]]],vs=[0,[0,[0,0]]],vk=[0,[0,0]],vl=[0,0],vg=[0,0,0],vh=[0,[0,0,0],0],vi=[0,0,0],ve=[0,0,0],vf=[0,[0,0,0],0],vd=[0,0,0],vc=[0,[0,[0,0]]],u8=[0,0],u9=[0,0],u_=[0,0],u$=[0,0],u5=[0,0],u6=[0,0],u3=[0,0,0],u0=[0,[0,[0,0]]],u1=[0,[0,[0,0]]],u2=[0,[0,[0,0]]],uZ=[0,[0,[0,[0,0]]]],uV=[0,[0,[0,0]]],uW=[0,[0,[0,0]]],uX=[0,[0,[0,0]]],uY=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],uT=[0,[0,0]],uU=[0,0],uR=[0,[0,0]],uS=[0,0],uP=[0,[0,0]],uQ=[0,0],uC=[0,0],uD=[0,[0,0]],uA=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],uB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KR]]]]]]]]]]],uy=[0,0,0],uw=[0,[0,[0,[0,[0,0]]]]],um=[0,0],un=[0,[0,0]],uo=[0,[0,[0,0]]],up=[0,[0,[0,[0,0]]]],uq=[0,[0,[0,[0,[0,0]]]]],ur=[0,[0,[0,[0,[0,[0,0]]]]]],us=[0,[0,[0,[0,[0,[0,[0,0]]]]]]],ut=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],uu=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],uv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],uk=a(tl),uj=a(ah),ui=[0,[0,0]],ug=[0,0],ud=[0,0],uf=[1,0],ue=[0,0],uc=[0,0],ua=[1,0],ub=[1,0],vW=[10,0,0,0,0],Es=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KW]]]]]]]]]]],H0=a(bX),H1=a(bV),H2=a(sa),HS=a(gB),HT=[0,a("a base axis of such a platform"),0],HU=a(bu),HV=a(bU),HF=a(s2),HG=a(sp),HH=a(tf),HI=a(is),HJ=a(sh),HK=a(is),HL=a(tt),HM=a(r7),HN=a(r4),Ht=a(sO),Hu=a(iB),G7=[0,a("such a machine with bodies"),0],GU=a(iy),GV=a(bB),GW=a(sR),GX=a(tg),G0=a(r3),G1=a(rD),G2=a(bB),G3=a(bB),G5=a(ir),G4=[0,a("a claim that no cube of such a machine fits"),0],G6=a(tp),G8=a(fg),G9=a(fl),G_=a(cB),G$=a(lJ),Ha=a(sJ),Hb=a(iK),Hc=a(r5),Hd=a(rP),He=a(lz),Hh=a(eq),Hi=a(sX),Hl=a(cg),Hm=a(cg),Hn=a(se),Ho=a(cg),Hp=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],Hq=a(ir),Hr=a(gD),Hs=a(eq),Hv=a(tb),Hw=a(sY),Hx=[0,a(" operations, with its definitions written out,"),0],Hy=a("a mechanism of more than "),Hz=a(cg),HA=a(bX),HB=a(bV),HC=a(iL),HD=a(r0),Hf=[0,a(aW),0],Hg=a('the mechanism "'),HE=a(lP),HO=a(iK),HP=a(cB),HQ=a(lJ),HR=a(lR),HW=a(cg),HZ=a(cB),HX=[0,a("a platform that turns on struts and other drives"),0],HY=a(cg),Hj=[0,a(aW),0],Hk=a('the workspace "'),H3=a(bB),H4=a(bB),H6=a(gy),H7=a(gu),H8=a(iL),H5=[0,a("an atlas of such a machine"),0],GY=[0,a(aW),0],GZ=a('a claim of the kind "'),Ik=a(iM),Il=a(dH),Im=a(iw),In=a(fi),Io=a(iG),Ip=a(lM),Iq=a(gq),Ir=a(iM),Is=a(iw),It=a(iG),Iu=a(lM),Iv=[0,a('this evidence "fan"'),0],Ib=a(dH),IG=a(gx),IH=[0,1,1],Ic=a(sG),Ix=a(ff),Iy=a(sb),Iz=a(fh),IA=a(sc),IB=a(sB),IC=a(bW),ID=a(gx),IE=a(it),IF=a(bW),Id=a(iM),Ie=a(dH),If=a(iw),Ig=a(fi),Ih=a(iG),Iw=[0,a('evidence "fan" about "divided" and other rows'),0],Ii=[0,a(aW),0],Ij=a('the evidence "'),II=a(ff),IJ=a(fh),IK=a(dH),IL=a(fi),IM=a(td),IO=a(ff),IP=a(fh),IQ=a(dH),IR=a(fi),IS=a(gv),IT=a(gq),IU=a(gv),IV=a(gq),IN=[0,a("this evidence at control points"),0],JX=a('"orthocert-paving/'),JO=a(dH),JP=a(dH),JB=a(sw),JC=a(r_),JD=a(s6),JV=[0,3,3],JE=a(sg),JM=[0,a("this set of orientations with such drives"),0],JN=[0,a(rL),0],JQ=[0,a('this evidence "tolerances" of a platform that turns'),0],JR=[0,a("a step of a platform that turns that is not at control points"),0],JS=[0,a("this quantity in a claim that is refuted"),0],JT=[0,a("a step in a proof that no cube fits"),0],JU=[0,a('the failure "same" of such a mechanism'),0],JF=[0,a(rL),0],JK=[0,a("a stiffness for each joint in such a claim"),0],JL=[0,a(sT),0],JJ=[0,a(sT),0],JG=a(sx),JH=a(rF),JI=a(iv),Jx=a(lU),Jy=a(gq),Jz=a(bW),Jp=a(iy),Jq=a(sq),Jr=a(s_),Js=[0,a(aW),0],Jt=a('a proof of the kind "'),Jl=a(gu),Jm=a(gy),Jn=a(iz),Jo=a(sI),Jh=a(bB),Ji=a(iI),Jj=a(rG),Jk=a(iE),Je=a(s4),Jf=a(gv),Jg=a(iE),Ja=a(sL),Jb=a(iI),Jc=a(iz),Jd=a(th),IY=a(tc),IZ=a(iD),I0=a(s$),I1=a(iB),I2=a(sS),I3=a(tn),I6=a(s0),I7=a(it),I8=a(gx),I9=a(s3),I_=a(sP),I$=a(iD),I4=[0,a(aW),0],I5=a('the failure "'),IW=a(lU),IX=a(tl),H$=a(gx),Ia=a(it),H9=a(rE),H_=a(rH),GR=a(gD),GH=a(lC),GI=a(rJ),GJ=a(fj),GK=a(bu),GP=a(s7),GQ=a(gD),GS=a(er),GT=a(fj),GL=a(er),GM=a(sz),GN=a(r$),GO=a(bu),GA=a(eq),GE=a(bX),GF=a(bV),GB=a(lH),GC=a(lL),GD=a(er),Gu=a(eq),Gy=a(bX),Gz=a(bV),Gv=a(lH),Gw=a(lL),Gx=a(er),Gt=[0,1],Gs=[0,1],Gq=[0,1],Go=[0,1],Gn=[0,1],Gl=[0,1],Gm=[0,a("this quantity of such a mechanism"),0],F6=a(lD),F7=a(sU),F8=a(rZ),F9=a(lT),F_=a(to),Ga=a(sV),F$=a(gt),F5=a(iv),FX=a(iC),FL=a(sE),FM=a(sN),Gd=a(ff),Ge=a(s9),Gf=a(sd),Gg=a(fh),Gh=a(sF),Gi=a(rR),Gj=a(rS),Gk=a(rI),FN=a(rO),FO=a(tr),FP=a(s1),FQ=a(sQ),FR=a(r6),FS=a(tq),FT=a(rU),FU=a(rT),FV=[0,a(aW),0],FW=a('the quantity "'),FY=a(r2),FZ=a(sZ),F0=a(bX),F1=a(bV),F2=a(te),F3=[0,a(aW),0],F4=a('a bound "'),Gb=a(gs),Gc=a(fj),FJ=a(bA),FK=a(fn),FH=a(bA),FI=a(cB),FE=a(bA),FF=a(gz),Fg=a(bA),Fh=a(gB),Fi=a(gC),Fj=a(cB),Fk=a(gz),Fl=a(fn),Fo=a(bu),Fp=a(bU),Fq=a(gr),Fr=a(fe),Fs=a(bu),Ft=a(bU),Fu=a(bW),Fv=a(bW),Fw=a(gr),Fx=a(fe),Fy=a(gC),Fz=a(bu),FA=a(bU),FB=a(sD),FC=a(gt),Fm=[0,a('" of such a machine'),0],Fn=a(rY),Fe=a(bA),Ff=a(gC),E0=a(bA),E1=a(cB),E2=a(gz),E3=a(fn),E6=a(gB),E7=a(bu),E8=a(bU),E9=a(gr),E_=a(fe),E$=a(bu),Fa=a(bU),Fb=a(bW),Fc=a(bW),E4=[0,a(aW),0],E5=a(rY),EX=a(iF),EY=a(fm),EV=a(" is not covered by the verified checker"),EW=a(ah),ET=a(bX),EU=a(bV),EP=a(ah),EQ=a(ts),ER=a(ah),ES=a(ah),EO=[1,0],EN=a(fm),EL=a("Reader.Malformed"),EM=a("Reader.Not_covered"),JZ=[0,a("a paving is checked by orthocert-verified")],JY=a(sH),J0=a("CERTIFIED"),J1=a("REFUTED"),J2=a(sH),J3=a("NOT COVERED: ");function
-gJ(a){throw[0,ma,a]}function
-mc(b,a){return Ll(b,a)?b:a}function
-bn(d,c){var
-a=aE(d),e=aE(c),b=cF(a+e|0);fp(d,0,b,0,a);fp(c,0,b,a,e);return iU(b)}function
-md(a,b){if(a){var
-c=a[1];return[0,c,md(a[2],b)]}return b}Lp(0);tP(1);tP(2);function
-me(b){function
+LO(){var
+a=Y;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){tX(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)tX(a.error)})}LO();function
+h(a,b){return a.length==1?a(b):c9(a,[b])}function
+at(a,b,c){return a.length==2?a(b,c):c9(a,[b,c])}function
+fi(a,b,c,d){return a.length==3?a(b,c,d):c9(a,[b,c,d])}function
+gx(a,b,c,d,e){return a.length==4?a(b,c,d,e):c9(a,[b,c,d,e])}function
+Lb(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):c9(a,[b,c,d,e,f])}Lq();var
+me=[bd,a(sw),-2],md=[bd,a(tI),-4],Ki=[0,[0,[0,[0,0]]]],Kj=[0,0],Kk=[0,0],Kl=[0,[0,0]],Km=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kl]]]]]]]]]]],iq=[0,[1,0],0],rc=[0,[2,0],0],le=[0,[1,0],0],rb=[0,[2,0],0],io=[0,[1,0],0],ld=[0,[2,0],0],Kn=[0,[0,[0,[0,0]]]],Ko=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kn]]]]]]]]]]],Kp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ko]]]]]]]]]]],Kq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kp]]]]]]]]]]],Kr=[0,[0,0]],Ks=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kr]]]]]]]]]]],Kt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ks]]]]]]]]]]],Ku=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kt]]]]]]]]]]],Kv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ku]]]]]]]]]]],Kw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Kx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kw]]]]]]]]]]],Ky=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kx]]]]]]]]]]],Kz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ky]]]]]]]]]]],KA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kz]]]]]]]]]]],KB=[0,[0,0]],KC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KB]]]]]]]]]]],KD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KC]]]]]]]]]]],KE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KD]]]]]]]]]]],KF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KE]]]]]]]]]]],KG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KF]]]]]]]]]]],KH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KG]]]]]]]]]]],KI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KH]]]]]]]]]]],KJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],KK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KJ]]]]]]]]]]],KL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KK]]]]]]]]]]],KM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KL]]]]]]]]]]],KN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KM]]]]]]]]]]],KO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KN]]]]]]]]]]],KP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KO]]]]]]]]]]],KQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KP]]]]]]]]]]],KR=[0,0],KS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KR]]]]]]]]]]],KT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KS]]]]]]]]]]],KU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KT]]]]]]]]]]],KV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KU]]]]]]]]]]],KW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KV]]]]]]]]]]],KX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KW]]]]]]]]]]],KY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KX]]]]]]]]]]],KZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KY]]]]]]]]]]],K0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KZ]]]]]]]]]]],K1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K0]]]]]]]]]]],K2=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],K3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K2]]]]]]]]]]],K4=[0,0],K5=[0,[0,0]],K6=[0,0],K7=[0,[0,[0,[0,[0,0]]]]],dV=[0,[0,[0,0]]],dX=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],nK=[0,0],ib=[0,[0,[0,[0,0]]]],K8=[0,[0,[0,[0,[0,0]]]]],K9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K8]]]]]]]]]]],K_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K9]]]]]]]]]]],K$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K_]]]]]]]]]]],La=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K$]]]]]]]]]]];b1(11,[bd,a(rY),-12],rY);b1(10,[bd,a(sM),-11],sM);b1(9,[bd,a(tx),-10],tx);b1(8,[bd,a(r$),-9],r$);b1(7,[bd,a(s0),-8],s0);b1(6,[bd,a(r9),-7],r9);b1(5,[bd,a(sx),-6],sx);b1(4,[bd,a(sB),-5],sB);b1(3,md,tI);b1(2,[bd,a(lJ),-3],lJ);b1(1,me,sw);b1(0,[bd,a(th),-1],th);var
+uj=a("String.sub / Bytes.sub"),ul=a(ai),uk=a("String.concat"),um=a("Array.init"),un=a("power"),uT=[0,0],uU=[0,0],u0=[0,0,0],u1=[0,0,0],u2=[0,0],vj=[0,0],vp=[0,0],vq=[0,0],vr=[0,0],vz=[0,0],vR=[0,0],vU=[0,0],vY=[0,0],vZ=[0,0],v0=[0,0],v1=[0,0],wd=[0,0],we=[0,0],wH=[0,0],w7=[0,[0,[0,0]]],xJ=[0,0],ya=[0,0],yy=[0,0],yM=a(","),y4=[0,a(lQ),0],y5=a(sG),y6=a("."),y7=[0,[0,[0,0]]],y8=a(fr),y9=a(lR),y_=[0,[0,[0,[0,[0,0]]]]],y$=[0,a(lQ),0],za=a(tG),Cd=a(rV),Cf=a(rS),Ce=a(sP),Cg=a(fm),Ch=a(fk),Ci=a(iZ),Cj=a(tr),Ck=a(sq),Cl=a(iT),Cm=a(sU),Cn=a(sp),DE=[0,[0,[0,0,0],0]],DV=[0,0],DF=a(gy),DG=[0,0],DH=a(lP),DI=[0,1],DJ=a("mirror"),DK=[0,3],DL=a("negative"),DM=[0,2],DN=a(gD),DO=[0,5],DP=a(lX),DQ=[0,4],DR=a(dL),DS=a(iJ),DT=a(fn),DU=a(bZ),DW=[0,0],DX=[0,0],DY=[0,0],D1=[0,[0,[0,0]]],D2=[0,[0,[0,0]]],Er=[0,[0,[0,0]]],EF=[0,0],E0=a(ai),ES=[0,0],EU=[0,0],ET=[0,0],EV=[0,[0,[0,[0,0]]]],EW=[0,[0,[0,0]]],EX=[0,[0,[0,[0,0]]]],EY=[0,[0,[0,0]]],EQ=[0,[0,[0,0]]],EP=a(fn),EO=[0,0],EM=[0,1,0],EN=[0,[0,[0,0]]],EL=[0,0],EK=[0,0],EJ=[0,0],EG=[0,[0,0]],EH=[0,[0,[0,0]]],ED=[0,[0,0]],EE=[0,[0,[0,0]]],EC=[0,0],Ey=[0,[0,[0,0]]],Ex=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ki]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],Es=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],Et=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],Eu=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],Ev=[0,[0,[0,[0,0]]],[0,0,0]],Ep=[0,0],Eq=[0,[0,0]],Eo=[0,0,0],En=[0,[0,[0,0]]],Eh=[0,[0,0]],Ei=[0,[0,[0,0]]],Ej=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kj]]]]]]]]]]],Ek=[0,[0,0]],El=[0,[0,[0,0]]],Eg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kk]]]]]]]]]]],Ee=[0,[0,0]],Ef=[0,[0,[0,0]]],Ec=[0,[0,[0,0]]],Ed=[0,[0,0]],Eb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Km]]]]]]]]]]],Ea=[0,0],D$=[0,0],D8=[0,[0,0]],D9=[0,0],D6=[0,0],D7=[0,1],D4=[0,[0,0]],D5=[0,0],D3=[0,0],DZ=[0,0],D0=[0,1],Dy=[0,[0,0,0]],Dz=[0,[0,1,0]],DA=[0,[0,2,0]],DB=[0,[0,0,1]],DC=[0,[0,1,1]],DD=[0,[0,2,1]],Du=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Ds=[0,[0,0],0],Dt=[0,[1,0],0],Dv=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Dq=[0,[0,0]],Dr=[0,0],Dp=[0,0],Do=[0,0],Dn=[0,0],Dm=[0,0],Dl=[0,0,0],Dj=[0,[0,0]],Dk=[0,0],Di=[0,0,0],Dg=[0,[0,[0,0]]],Dh=[0,[0,[0,0]]],Df=[0,0],Dd=[0,1,0],C8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kq]]]]]]]]]]],C9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kv]]]]]]]]]]],C4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KA]]]]]]]]]]],C5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KI]]]]]]]]]]],C6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KQ]]]]]]]]]]],C7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K1]]]]]]]]]]],C_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K3]]]]]]]]]]],C$=a("sqrt"),CT=[0,a("\n"),0],CU=a(rT),CV=a(iI),CW=a(sL),CX=a(su),C3=a(gG),CY=a(gC),CZ=a("verdict"),C0=a(ti),C1=a(sm),C2=a(sK),CQ=a(sE),CR=a(tm),CS=a(iL),CM=a(sW),CN=a(iM),CO=a(gC),CP=a(gG),CH=a(iV),CI=a(bF),CJ=a(rU),CK=a(iR),CE=a(tg),CF=a(gD),CG=a(iR),CA=a(sZ),CB=a(iV),CC=a(iM),CD=a(tv),Cp=a(tn),Cq=a(tq),Cr=a(iQ),Cs=a(iO),Ct=a(tB),Cu=a(tc),Cv=a(tf),Cw=a(s3),Cx=a(iQ),Cy=a(s6),Cb=a(iG),Cc=a(gF),B8=a(b0),B9=a(bY),B_=a(so),BI=a(iO),BJ=a(s2),Bm=a(bF),Bn=a(cj),Bo=a(iX),Bp=a(fq),Bq=a(cF),Bv=a(lC),Br=a(lS),Bs=a(lU),Bt=a(fl),Bu=a(bF),Bw=a(cj),Bx=a(iX),By=a(fq),Bz=a(lS),BA=a(lU),BB=a(fl),BC=a(bF),BD=a(cj),BE=a(b0),BF=a(bY),BG=a(es),BH=a(fq),BK=a(ta),BL=a(tp),BM=a(iY),BN=a(sc),BO=a(sh),BP=a(fl),BQ=a(bF),BR=a(cj),BS=a(iE),BT=a(ss),BU=a(fq),BV=a(gL),BW=a(r3),BX=a(fl),BY=a(bF),BZ=a(iE),B0=a(bF),B1=a(s5),B4=a(rR),B2=a(sf),B3=a(tu),B5=a(gG),B6=a(gC),B7=a(bF),B$=a(iY),Ca=a(iL),Bh=a(cj),Bi=a(fq),Bj=a(lC),Bk=a(fl),Bg=a(tD),A6=a(gL),A7=a(tj),A8=a(et),A9=a(fo),A_=a(fo),A$=a(lF),Ba=a(et),Bb=a(sN),Bc=a(sn),Bd=a(bv),Bf=a(rX),Be=a(lF),AW=a(sD),AX=a(tH),AY=a(sj),AZ=a(sg),A0=a(tt),A1=a(te),A2=a(sv),A3=a(iF),A4=a(iF),AS=a(bv),AT=a(bX),AU=a(fs),AV=a(bE),AO=a(cF),AP=a(lM),AQ=a(sX),AL=a(b0),AM=a(bY),AN=a(es),AE=a(b0),AF=a(bY),AG=a(es),AH=a(lO),AI=a(et),AJ=a(lK),AK=a(s$),Am=a(se),As=a(iI),Ar=a(lW),An=a(lG),Ao=a(gA),At=a(gB),Av=a(gB),Aw=a(s9),Ax=a(lG),Au=a(gA),Ay=a(sb),Az=a(s8),AA=a(gA),AB=a(tC),AC=a(lW),AD=a(gA),Ap=a(fo),Aq=a(sS),Aj=a(iP),Ak=a(iP),Al=a(iP),Af=a(tb),Ag=a(bY),Ah=a(b0),Ai=a(ts),z0=a(r7),z1=a(rW),z2=a(s1),z3=a(fm),z4=a(tE),z5=a(s4),z6=a(r8),z7=a(sT),z8=a(r6),z9=a(sr),z_=a(r5),z$=a(td),Aa=a(fk),Ab=a(r2),Ac=a(tl),Ad=a(si),Ae=a(tF),zB=a(iS),zD=a(fr),zC=a(gz),zE=a(fj),zF=a(bv),zG=a(bX),zH=a(bZ),zI=a(gH),zJ=a(bE),zK=a(gJ),zL=a(bv),zM=a(bX),zN=a(fs),zO=a(bE),zP=a(bZ),zQ=a(cF),zR=a(bE),zS=a(fj),zT=a(gK),zU=a(bv),zV=a(bX),zW=a(sR),zX=a(gB),zY=a(gK),zZ=a(bE),zj=a(iS),zr=a(fr),zk=a(gz),zl=a(fj),zm=a(bv),zn=a(bX),zo=a(bZ),zp=a(gH),zq=a(bE),zs=a(gJ),zt=a(bv),zu=a(bX),zv=a(fs),zw=a(bE),zx=a(bZ),zy=a(cF),zz=a(bE),zg=a(b0),zh=a(bY),ze=[0,a(aZ),0],zf=a(aZ),zc=a(ai),zb=[0,a(aZ),0],zd=a(aZ),y0=a(iS),y1=a(fr),y2=a("*"),y3=a(ck),yV=[0,[0,[0,[0,[0,0]]]]],yW=[0,[0,[0,0]]],yX=[0,[0,0]],yY=[0,0],yZ=[0,[0,[0,[0,0]]]],yT=a('":'),yU=a(aZ),yR=[0,a(aZ),0],yS=a(aZ),yP=[0,a("}"),0],yQ=a("{"),yN=[0,a("]"),0],yO=a("["),yL=[0,[0,[0,0]]],yK=[0,[0,[0,0]]],yI=[0,0],yF=[0,[0,[0,0]]],yG=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],yH=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],yD=[0,[0,0]],yE=[0,[0,[0,0]]],yA=[0,0],yB=[0,[0,0]],yC=[0,0],yz=[0,0],yw=[0,0],yx=[0,[0,0]],yt=[0,0],yu=[0,[0,0]],yv=[0,0],yo=[0,[0,0]],yp=[0,0],yq=[0,[0,[0,0]]],yr=[0,[0,[0,0]]],yn=[0,[0,[0,0]]],ym=[0,[0,[0,0]]],yl=[0,0],yi=[0,[0,[0,0]]],yk=[0,[0,[0,0]]],yj=[0,0],yg=[0,[0,0]],yh=[0,0],ye=[0,[0,0]],yf=[0,0],yd=[0,[0,[0,0]]],yb=[0,[0,0]],yc=[0,0],x_=[0,0],x$=[0,[0,0]],x4=[0,[0,0]],x5=[0,[0,[0,[0,[0,0]]]]],x6=[0,[0,[0,[0,0]]]],x7=[0,[0,[0,0]]],x8=[0,[0,0]],x9=[0,0],x1=[0,0],x2=[0,[0,0]],x3=[0,0],x0=[0,0],xW=[0,0],xX=[0,[0,[0,[0,[0,[0,0]]]]]],xY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K4]]]]]]]]]]],xU=[0,0,0],xV=[0,0,0],xR=[0,0,0],xS=[0,0],xN=[0,0,0],xO=[0,0,0],xP=[0,0,0],xK=[0,[0,0]],xL=[0,[0,[0,0]]],xM=[0,0],xF=[0,0],xG=[0,[0,0]],xH=[0,0],xI=[0,[0,0]],xC=[0,0],xD=[0,[0,0]],xE=[0,0],xA=[0,0,0],xB=[0,0,[0,1,0]],xw=[0,0,0],xx=[0,0,0],xy=[0,0,0],xz=[0,0,0],xt=[0,[0,[0,[0,[0,[0,0]]]]]],xu=[0,[0,[0,0]]],xv=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],xm=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],xn=[0,[0,[0,0]]],xo=[0,[0,[0,[0,[0,[0,0]]]]]],xp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K5]]]]]]]]]]],xq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K6]]]]]]]]]]],xr=[0,[0,[0,0]]],xs=[0,[0,[0,[0,[0,[0,0]]]]]],xi=[0,0,0],xj=[0,0,0],xe=[0,0,0],xf=[0,0,0],xg=[0,0,0],xh=[0,0,0],xd=[0,0],xc=[0,0],xb=[0,0],w$=[0,0],xa=[0,0],w_=[0,0],w8=[0,0],w9=[0,0],w0=[0,0],w1=[0,0],w2=[0,0],w3=[0,[0,[0,0]]],wZ=[0,0],wT=[0,0],wU=[0,0],wV=[0,[0,0]],wR=[0,[0,0]],wS=[0,[0,[0,0]]],wP=[0,[0,[0,0]]],wQ=[0,[0,0]],wN=[0,[0,0]],wO=[0,[0,[0,0]]],wM=[0,0],wK=[0,0],wL=[0,0],wI=[0,0,0],wF=[0,[0,0]],wG=[0,0],wx=[0,[0,0]],wy=[0,0],wz=[0,[0,0]],wA=[0,0],wB=[0,[0,0]],wC=[0,0],wD=[0,[0,0]],wE=[0,0],wv=[0,[0,0]],ww=[0,0],wt=[0,[0,0]],wu=[0,0],wp=[0,[0,0]],wq=[0,0],wr=[0,0],ws=[0,[0,0]],wg=[0,[0,0]],wh=[0,0],wi=[0,[0,0]],wj=[0,0],wk=[0,0],wl=[0,[0,0]],wm=[0,[0,0]],wn=[0,[0,0]],wo=[0,0],wc=[0,0],wb=[0,0],v_=[0,0],v$=[0,[0,0]],v9=[0,[0,[0,0]]],v8=[0,[0,[0,[0,[0,[0,0]]]]]],v6=[0,[0,0]],v7=[0,0],v5=[0,[0,0]],v4=[0,0],v2=[0,0],v3=[0,[0,[0,0]]],vW=[0,[0,0]],vX=[0,[0,[0,0]]],vV=[0,[0,[0,0]]],vS=[0,[0,[0,0]]],vQ=[0,[0,[0,0]]],vO=[0,[0,[0,[0,[0,[0,0]]]]]],vP=[0,[0,[0,[0,[0,[0,0]]]]]],vJ=[0,[0,0]],vK=[0,0],vL=[0,[0,0]],vM=[0,[0,[0,0]]],vN=[0,[0,[0,0]]],vC=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],vD=[0,[0,[0,[0,[0,[0,0]]]]]],vE=[0,[0,[0,[0,[0,[0,0]]]]]],vF=[0,[0,[0,0]]],vG=[0,[0,[0,[0,[0,[0,0]]]]]],vH=[0,[0,[0,0]]],vI=[0,[0,[0,0]]],vA=[0,[0,0]],vB=[0,0],vw=[0,0,0],vx=[0,[0,0,0],0],vy=[0,0,0],vu=[0,0,0],vv=[0,[0,0,0],0],vt=[0,0,0],vs=[0,[0,[0,0]]],vk=[0,0],vl=[0,0],vm=[0,0],vn=[0,0],vh=[0,0],vi=[0,0],vf=[0,0,0],vc=[0,[0,[0,0]]],vd=[0,[0,[0,0]]],ve=[0,[0,[0,0]]],vb=[0,[0,[0,[0,0]]]],u9=[0,[0,[0,0]]],u_=[0,[0,[0,0]]],u$=[0,[0,[0,0]]],va=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],u7=[0,[0,0]],u8=[0,0],u5=[0,[0,0]],u6=[0,0],u3=[0,[0,0]],u4=[0,0],uQ=[0,0],uR=[0,[0,0]],uO=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],uP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K7]]]]]]]]]]],uM=[0,0,0],uK=[0,[0,[0,[0,[0,0]]]]],uA=[0,0],uB=[0,[0,0]],uC=[0,[0,[0,0]]],uD=[0,[0,[0,[0,0]]]],uE=[0,[0,[0,[0,[0,0]]]]],uF=[0,[0,[0,[0,[0,[0,0]]]]]],uG=[0,[0,[0,[0,[0,[0,[0,0]]]]]]],uH=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],uI=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],uJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],uy=a(tz),ux=a(ai),uw=[0,[0,0]],uu=[0,0],ur=[0,0],ut=[1,0],us=[0,0],uq=[0,0],uo=[1,0],up=[1,0],wa=[10,0,0,0,0],EI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,La]]]]]]]]]]],Ie=a(b0),If=a(bY),Ig=a(so),H8=a(gJ),H9=[0,a("a base axis of such a platform"),0],H_=a(bv),H$=a(bX),HV=a(te),HW=a(sD),HX=a(tt),HY=a(iF),HZ=a(sv),H0=a(iF),H1=a(tH),H2=a(sj),H3=a(sg),HJ=a(s2),HK=a(iO),Hl=[0,a("such a machine with bodies"),0],G_=a(iL),G$=a(bF),Ha=a(s5),Hb=a(tu),He=a(sf),Hf=a(rR),Hg=a(bF),Hh=a(bF),Hj=a(iE),Hi=[0,a("a claim that no cube of such a machine fits"),0],Hk=a(tD),Hm=a(fl),Hn=a(fq),Ho=a(cF),Hp=a(lM),Hq=a(sX),Hr=a(iX),Hs=a(sh),Ht=a(r3),Hu=a(lC),Hx=a(es),Hy=a(s$),HB=a(cj),HC=a(cj),HD=a(ss),HE=a(cj),HF=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],HG=a(iE),HH=a(gL),HI=a(es),HL=a(tp),HM=a(ta),HN=[0,a(" operations, with its definitions written out,"),0],HO=a("a mechanism of more than "),HP=a(cj),HQ=a(b0),HR=a(bY),HS=a(iY),HT=a(sc),Hv=[0,a(aZ),0],Hw=a('the mechanism "'),HU=a(lS),H4=a(iX),H5=a(cF),H6=a(lM),H7=a(lU),Ia=a(cj),Id=a(cF),Ib=[0,a("a platform that turns on struts and other drives"),0],Ic=a(cj),Hz=[0,a(aZ),0],HA=a('the workspace "'),Ih=a(bF),Ii=a(bF),Ik=a(gG),Il=a(gC),Im=a(iY),Ij=[0,a("an atlas of such a machine"),0],Hc=[0,a(aZ),0],Hd=a('a claim of the kind "'),IA=a(iZ),IB=a(dL),IC=a(iJ),ID=a(fn),IE=a(iT),IF=a(lP),IG=a(gy),IH=a(iZ),II=a(iJ),IJ=a(iT),IK=a(lP),IL=[0,a('this evidence "fan"'),0],Ir=a(dL),IW=a(gF),IX=[0,1,1],Is=a(sU),IN=a(fk),IO=a(sp),IP=a(fm),IQ=a(sq),IR=a(sP),IS=a(bZ),IT=a(gF),IU=a(iG),IV=a(bZ),It=a(iZ),Iu=a(dL),Iv=a(iJ),Iw=a(fn),Ix=a(iT),IM=[0,a('evidence "fan" about "divided" and other rows'),0],Iy=[0,a(aZ),0],Iz=a('the evidence "'),IY=a(fk),IZ=a(fm),I0=a(dL),I1=a(fn),I2=a(tr),I4=a(fk),I5=a(fm),I6=a(dL),I7=a(fn),I8=a(gD),I9=a(gy),I_=a(gD),I$=a(gy),I3=[0,a("this evidence at control points"),0],Kb=a('"orthocert-paving/'),J4=a(dL),J5=a(dL),JR=a(sK),JS=a(sm),JT=a(ti),J$=[0,3,3],JU=a(su),J2=[0,a("this set of orientations with such drives"),0],J3=[0,a(rZ),0],J6=[0,a('this evidence "tolerances" of a platform that turns'),0],J7=[0,a("a step of a platform that turns that is not at control points"),0],J8=[0,a("this quantity in a claim that is refuted"),0],J9=[0,a("a step in a proof that no cube fits"),0],J_=[0,a('the failure "same" of such a mechanism'),0],JV=[0,a(rZ),0],J0=[0,a("a stiffness for each joint in such a claim"),0],J1=[0,a(s7),0],JZ=[0,a(s7),0],JW=a(sL),JX=a(rT),JY=a(iI),JN=a(lX),JO=a(gy),JP=a(bZ),JF=a(iL),JG=a(sE),JH=a(tm),JI=[0,a(aZ),0],JJ=a('a proof of the kind "'),JB=a(gC),JC=a(gG),JD=a(iM),JE=a(sW),Jx=a(bF),Jy=a(iV),Jz=a(rU),JA=a(iR),Ju=a(tg),Jv=a(gD),Jw=a(iR),Jq=a(sZ),Jr=a(iV),Js=a(iM),Jt=a(tv),Jc=a(tq),Jd=a(iQ),Je=a(tn),Jf=a(iO),Jg=a(s6),Jh=a(tB),Jk=a(tc),Jl=a(iG),Jm=a(gF),Jn=a(tf),Jo=a(s3),Jp=a(iQ),Ji=[0,a(aZ),0],Jj=a('the failure "'),Ja=a(lX),Jb=a(tz),Ip=a(gF),Iq=a(iG),In=a(rS),Io=a(rV),G7=a(gL),GX=a(lF),GY=a(rX),GZ=a(fo),G0=a(bv),G5=a(tj),G6=a(gL),G8=a(et),G9=a(fo),G1=a(et),G2=a(sN),G3=a(sn),G4=a(bv),GQ=a(es),GU=a(b0),GV=a(bY),GR=a(lK),GS=a(lO),GT=a(et),GK=a(es),GO=a(b0),GP=a(bY),GL=a(lK),GM=a(lO),GN=a(et),GJ=[0,1],GI=[0,1],GG=[0,1],GE=[0,1],GD=[0,1],GB=[0,1],GC=[0,a("this quantity of such a mechanism"),0],Gk=a(lG),Gl=a(s8),Gm=a(sb),Gn=a(lW),Go=a(tC),Gq=a(s9),Gp=a(gB),Gj=a(iI),Gb=a(iP),F1=a(sS),F2=a(s1),Gt=a(fk),Gu=a(tl),Gv=a(sr),Gw=a(fm),Gx=a(sT),Gy=a(r5),Gz=a(r6),GA=a(rW),F3=a(r2),F4=a(tF),F5=a(td),F6=a(s4),F7=a(si),F8=a(tE),F9=a(r8),F_=a(r7),F$=[0,a(aZ),0],Ga=a('the quantity "'),Gc=a(se),Gd=a(tb),Ge=a(b0),Gf=a(bY),Gg=a(ts),Gh=[0,a(aZ),0],Gi=a('a bound "'),Gr=a(gA),Gs=a(fo),FZ=a(bE),F0=a(fs),FX=a(bE),FY=a(cF),FU=a(bE),FV=a(gH),Fw=a(bE),Fx=a(gJ),Fy=a(gK),Fz=a(cF),FA=a(gH),FB=a(fs),FE=a(bv),FF=a(bX),FG=a(gz),FH=a(fj),FI=a(bv),FJ=a(bX),FK=a(bZ),FL=a(bZ),FM=a(gz),FN=a(fj),FO=a(gK),FP=a(bv),FQ=a(bX),FR=a(sR),FS=a(gB),FC=[0,a('" of such a machine'),0],FD=a(sa),Fu=a(bE),Fv=a(gK),Fe=a(bE),Ff=a(cF),Fg=a(gH),Fh=a(fs),Fk=a(gJ),Fl=a(bv),Fm=a(bX),Fn=a(gz),Fo=a(fj),Fp=a(bv),Fq=a(bX),Fr=a(bZ),Fs=a(bZ),Fi=[0,a(aZ),0],Fj=a(sa),Fb=a(iS),Fc=a(fr),E$=a(" is not covered by the verified checker"),Fa=a(ai),E9=a(b0),E_=a(bY),E5=a(ai),E6=a(tG),E7=a(ai),E8=a(ai),E4=[1,0],E3=a(fr),E1=a("Reader.Malformed"),E2=a("Reader.Not_covered"),Kd=[0,a("a paving is checked by orthocert-verified")],Kc=a(sV),Ke=a("CERTIFIED"),Kf=a("REFUTED"),Kg=a(sV),Kh=a("NOT COVERED: ");function
+gR(a){throw[0,md,a]}function
+mf(b,a){return LB(b,a)?b:a}function
+bo(d,c){var
+a=aG(d),e=aG(c),b=cJ(a+e|0);fu(d,0,b,0,a);fu(c,0,b,a,e);return i7(b)}function
+mg(a,b){if(a){var
+c=a[1];return[0,c,mg(a[2],b)]}return b}LF(0);t3(1);t3(2);function
+mh(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{Lo(d)}catch(a){a=tY(a);if(a[1]!==mb)throw a;var
+c=a[2],d=a[1];try{LE(d)}catch(a){a=ua(a);if(a[1]!==me)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(Lq(0))}Lx(a(rM),me);function
-cH(c){var
+a=c;continue}return 0}}return a(LG(0))}LN(a(r0),mh);function
+cL(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-mf(d,c){var
+mi(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-iX(a){return mf(a,0)}function
-Y(b,a){if(a){var
-c=a[2],d=h(b,a[1]);return[0,d,Y(b,c)]}return 0}function
-mg(e,d,c){var
+i_(a){return mi(a,0)}function
+Z(b,a){if(a){var
+c=a[2],d=h(b,a[1]);return[0,d,Z(b,c)]}return 0}function
+mj(e,d,c){var
 b=d,a=c;for(;;){if(a){var
-f=a[2],b=as(e,b,a[1]),a=f;continue}return b}}function
-ex(d,c){var
+f=a[2],b=at(e,b,a[1]),a=f;continue}return b}}function
+ez(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=h(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
-aP(d,c){var
+aR(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=h(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
-mh(d,c){var
+mk(d,c){var
 a=c;for(;;){if(a){var
-b=a[1],e=a[2],f=b[2];if(0===K8(b[1],d))return[0,f];var
+b=a[1],e=a[2],f=b[2];if(0===Lm(b[1],d))return[0,f];var
 a=e;continue}return 0}}function
-bZ(b,c){var
-a=cF(b);K_(a,0,b,c);return iU(a)}function
-ey(g,b,a){var
-d=fq(g),f=0;if(0<=b&&0<=a&&!((iS(d)-a|0)<b)){var
-c=cF(a);gE(d,b,c,0,a);var
+b2(b,c){var
+a=cJ(b);Lo(a,0,b,c);return i7(a)}function
+eA(g,b,a){var
+d=fv(g),f=0;if(0<=b&&0<=a&&!((i5(d)-a|0)<b)){var
+c=cJ(a);gM(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=gJ(t7);return iU(e)}function
-mi(k,g){if(g){var
-h=aE(k),c=0,b=g,p=0;for(;;){if(b){var
+e=gR(uj);return i7(e)}function
+ml(k,g){if(g){var
+h=aG(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(aE(i)+h|0)+c|0,m=b[2],n=c<=j?j:gJ(t8),c=n,b=m;continue}var
-l=aE(i)+c|0}else
+j=(aG(i)+h|0)+c|0,m=b[2],n=c<=j?j:gR(uk),c=n,b=m;continue}var
+l=aG(i)+c|0}else
 var
 l=c;var
-f=cF(l),e=p,d=g;for(;;){if(d){var
+f=cJ(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];fp(a,0,f,e,aE(a));fp(k,0,f,e+aE(a)|0,h);var
-e=(e+aE(a)|0)+h|0,d=o;continue}fp(a,0,f,e,aE(a))}return iU(f)}}}return t9}function
-iY(b,c){if(0===b)return[0];if(0<=b){var
-d=Ln(b,h(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+o=d[2];fu(a,0,f,e,aG(a));fu(k,0,f,e+aG(a)|0,h);var
+e=(e+aG(a)|0)+h|0,d=o;continue}fu(a,0,f,e,aG(a))}return i7(f)}}}return ul}function
+i$(b,c){if(0===b)return[0];if(0<=b){var
+d=LD(b,h(c,0)),e=b-1|0,f=1;if(!(e<1)){var
 a=f;for(;;){d[1+a]=h(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return gJ(t_)}function
-iZ(c){var
+a=g;continue}break}}return d}return gR(um)}function
+ja(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
-d=aO(0),b=aO(1);function
-q(a){return G(a,b)}function
-mj(b,a){return G(aO(b),a)}function
-c(b,a){return D(aO(b),a)}function
-aY(b,a){return[0,l_(b,a),t2(b,a)]}function
-i0(b,a){return F(b,a)?b:a}function
-bv(b,a){return F(b,a)?a:b}function
-fv(a){return fv}function
-I(a){return a?0:1}function
+d=aQ(0),b=aQ(1);function
+r(a){return G(a,b)}function
+mm(b,a){return G(aQ(b),a)}function
+c(b,a){return E(aQ(b),a)}function
+a1(b,a){return[0,mb(b,a),ue(b,a)]}function
+jb(b,a){return D(b,a)?b:a}function
+bw(b,a){return D(b,a)?a:b}function
+fA(a){return fA}function
+J(a){return a?0:1}function
 x(b,a){var
 c=a?[0,h(b,a[1])]:a;return c}function
-at(a){return a[1]}function
-aJ(a){return a[2]}function
+as(a){return a[1]}function
+aK(a){return a[2]}function
 f(a){var
 b=a?[0,f(a[2])]:a;return b}function
 g(a,b){if(a){var
 c=g(a[2],b);return[0,a[1],c]}return b}function
-mk(a){return typeof
-a==="number"?0:[0,mk(a[1])]}function
-ml(d,c){var
+mn(a){return typeof
+a==="number"?0:[0,mn(a[1])]}function
+mo(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -812,9 +812,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-gK(a){return ml(a,0)}function
-mm(a){if(typeof
-a==="number")return ua;else
+gS(a){return mo(a,0)}function
+mp(a){if(typeof
+a==="number")return uo;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -824,197 +824,197 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,mm(a[1])]}}function
-b1(a){if(typeof
-a==="number")return ub;else
+8:return[9,a[1]];default:return[0,mp(a[1])]}}function
+b4(a){if(typeof
+a==="number")return up;else
 switch(a[0]){case
-0:return[1,b0(a[1])];case
-1:return[3,b0(a[1])];case
-2:return[5,b0(a[1])];case
-3:return[7,b0(a[1])];case
-4:return[9,b0(a[1])];case
-5:return[1,b1(a[1])];case
-6:return[3,b1(a[1])];case
-7:return[5,b1(a[1])];case
-8:return[7,b1(a[1])];default:return[9,b1(a[1])]}}function
-b0(a){if(typeof
+0:return[1,b3(a[1])];case
+1:return[3,b3(a[1])];case
+2:return[5,b3(a[1])];case
+3:return[7,b3(a[1])];case
+4:return[9,b3(a[1])];case
+5:return[1,b4(a[1])];case
+6:return[3,b4(a[1])];case
+7:return[5,b4(a[1])];case
+8:return[7,b4(a[1])];default:return[9,b4(a[1])]}}function
+b3(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,b0(a[1])];case
-1:return[2,b0(a[1])];case
-2:return[4,b0(a[1])];case
-3:return[6,b0(a[1])];case
-4:return[8,b0(a[1])];case
-5:return[0,b1(a[1])];case
-6:return[2,b1(a[1])];case
-7:return[4,b1(a[1])];case
-8:return[6,b1(a[1])];default:return[8,b1(a[1])]}}function
-aT(a){return a?a[1]:a}function
-N(b,a){return b?[0,N(b[1],a)]:a}function
-mn(a,b){return a?N(b,mn(a[1],b)):a}function
-dJ(d,c){var
+0:return[0,b3(a[1])];case
+1:return[2,b3(a[1])];case
+2:return[4,b3(a[1])];case
+3:return[6,b3(a[1])];case
+4:return[8,b3(a[1])];case
+5:return[0,b4(a[1])];case
+6:return[2,b4(a[1])];case
+7:return[4,b4(a[1])];case
+8:return[6,b4(a[1])];default:return[8,b4(a[1])]}}function
+aU(a){return a?a[1]:a}function
+O(b,a){return b?[0,O(b[1],a)]:a}function
+mq(a,b){return a?O(b,mq(a[1],b)):a}function
+dN(d,c){var
 a=d,b=c;for(;;){if(a){if(b){var
 a=a[1],b=b[1];continue}return a}return a}}function
-cI(b,a){return b?a:a?0:1}function
-n(d,c){var
+cM(b,a){return b?a:a?0:1}function
+m(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
 ae(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
 aF(b,a){return ae([0,b],a)}function
-ax(d,c){var
+ay(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return 2}var
 e=a?1:a;return e}}function
-mo(c){var
+mr(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-gL(c,b,a){return c?h(b,gL(c[1],b,a)):a}function
-mp(a){if(a)var
-b=a[1],d=b?[0,mp(b[1])]:b,c=d;else
+gT(c,b,a){return c?h(b,gT(c[1],b,a)):a}function
+ms(a){if(a)var
+b=a[1],d=b?[0,ms(b[1])]:b,c=d;else
 var
 c=a;return c}function
-i1(d,c){var
+jc(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-mq(a){if(F(a,b))return b;var
-e=aY(a,aO(2)),f=e[1];return L(e[2],d)?q(c(2,mq(f))):q(c(2,c(2,f)))}function
-mr(c,a){return bv(b,aR(c,a))}function
-gM(a,j,i){var
-c=j,f=i;for(;;){if(F(f,b))return h(a,c);var
-g=aY(f,aO(2)),e=g[1];if(L(g[2],d)){var
-c=gM(a,c,e),f=e;continue}return h(a,gM(a,gM(a,c,e),e))}}function
-gN(a){function
-c(b){return D(a,b)}return function(a){return gM(c,b,a)}}function
-gO(a){if(F(a,b))return ud;var
-c=aY(a,aO(2)),e=c[1];return L(c[2],d)?[0,gO(e)]:[0,gO(e)]}function
-gP(a){if(F(a,b))return b;var
-c=aY(a,aO(2)),e=c[1];return L(c[2],d)?q(gP(e)):q(gP(e))}function
-ms(c,b){var
-a=l9(c,b);return 0===a?0:0<=a?2:1}function
-gQ(j,i){var
-c=j,a=i;for(;;){if(F(c,b))return F(a,b)?1:L(aY(a,aO(2))[2],d)?0:0;var
-g=aY(c,aO(2)),h=g[1];if(L(g[2],d)){if(F(a,b))return 0;var
-e=aY(a,aO(2)),k=e[1];if(L(e[2],d)){var
-c=h,a=k;continue}return 0}if(F(a,b))return 0;var
-f=aY(a,aO(2)),l=f[1];if(L(f[2],d))return 0;var
+mt(a){if(D(a,b))return b;var
+e=a1(a,aQ(2)),f=e[1];return H(e[2],d)?r(c(2,mt(f))):r(c(2,c(2,f)))}function
+mu(c,a){return bw(b,aT(c,a))}function
+gU(a,j,i){var
+c=j,f=i;for(;;){if(D(f,b))return h(a,c);var
+g=a1(f,aQ(2)),e=g[1];if(H(g[2],d)){var
+c=gU(a,c,e),f=e;continue}return h(a,gU(a,gU(a,c,e),e))}}function
+gV(a){function
+c(b){return E(a,b)}return function(a){return gU(c,b,a)}}function
+gW(a){if(D(a,b))return ur;var
+c=a1(a,aQ(2)),e=c[1];return H(c[2],d)?[0,gW(e)]:[0,gW(e)]}function
+gX(a){if(D(a,b))return b;var
+c=a1(a,aQ(2)),e=c[1];return H(c[2],d)?r(gX(e)):r(gX(e))}function
+mv(c,b){var
+a=ma(c,b);return 0===a?0:0<=a?2:1}function
+gY(j,i){var
+c=j,a=i;for(;;){if(D(c,b))return D(a,b)?1:H(a1(a,aQ(2))[2],d)?0:0;var
+g=a1(c,aQ(2)),h=g[1];if(H(g[2],d)){if(D(a,b))return 0;var
+e=a1(a,aQ(2)),k=e[1];if(H(e[2],d)){var
+c=h,a=k;continue}return 0}if(D(a,b))return 0;var
+f=a1(a,aQ(2)),l=f[1];if(H(f[2],d))return 0;var
 c=h,a=l;continue}}function
-gR(b,a){return 2<=ms(b,a)?0:1}function
-ez(i,e,a){if(i){var
-f=i[1];if(F(e,b))return[0,b,[0,b,a]];var
-w=aY(e,aO(2)),g=w[1];if(L(w[2],d)){if(F(a,b))return[0,b,[0,e,b]];var
-m=aY(a,aO(2)),A=m[1];if(L(m[2],d)){var
-j=ez(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
-k=ez(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(F(a,b))return[0,b,[0,e,b]];var
-v=aY(a,aO(2)),h=v[1];if(L(v[2],d)){var
-n=ez(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(ms(g,h)){case
+gZ(b,a){return 2<=mv(b,a)?0:1}function
+eB(i,e,a){if(i){var
+f=i[1];if(D(e,b))return[0,b,[0,b,a]];var
+w=a1(e,aQ(2)),g=w[1];if(H(w[2],d)){if(D(a,b))return[0,b,[0,e,b]];var
+m=a1(a,aQ(2)),A=m[1];if(H(m[2],d)){var
+j=eB(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
+k=eB(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(D(a,b))return[0,b,[0,e,b]];var
+v=a1(a,aQ(2)),h=v[1];if(H(v[2],d)){var
+n=eB(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(mv(g,h)){case
 0:return[0,e,[0,b,b]];case
 1:var
-p=ez(f,mr(h,g),e),q=p[2],r=q[2],C=[0,r,G(r,c(2,q[1]))];return[0,p[1],C];default:var
-s=ez(f,mr(g,h),a),t=s[2],u=t[2],D=[0,G(u,c(2,t[1])),u];return[0,s[1],D]}}return[0,b,[0,e,a]]}function
-gS(b,a){var
-c=gO(a);return ez(N(gO(b),c),b,a)}function
-mt(c,i,h){var
-e=i,a=h;for(;;){if(F(e,b))return a;var
-f=aY(e,aO(2)),g=f[1];if(L(f[2],d)){var
-e=g,a=as(c,a,a);continue}return as(c,a,mt(c,g,as(c,a,a)))}}function
-fw(a){return mt(N,a,ue)}function
-mu(a){return a?q(mu(a[1])):b}function
-cJ(f,e){var
+p=eB(f,mu(h,g),e),q=p[2],r=q[2],C=[0,r,G(r,c(2,q[1]))];return[0,p[1],C];default:var
+s=eB(f,mu(g,h),a),t=s[2],u=t[2],E=[0,G(u,c(2,t[1])),u];return[0,s[1],E]}}return[0,b,[0,e,a]]}function
+g0(b,a){var
+c=gW(a);return eB(O(gW(b),c),b,a)}function
+mw(c,i,h){var
+e=i,a=h;for(;;){if(D(e,b))return a;var
+f=a1(e,aQ(2)),g=f[1];if(H(f[2],d)){var
+e=g,a=at(c,a,a);continue}return at(c,a,mw(c,g,at(c,a,a)))}}function
+fB(a){return mw(O,a,us)}function
+mx(a){return a?r(mx(a[1])):b}function
+cN(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
-g=D(c(2,q(c(2,c(2,b)))),d),a=a[1],d=g;continue;case
+g=E(c(2,r(c(2,c(2,b)))),d),a=a[1],d=g;continue;case
 1:var
-h=G(b,D(c(2,q(c(2,c(2,b)))),d)),a=a[1],d=h;continue;case
+h=G(b,E(c(2,r(c(2,c(2,b)))),d)),a=a[1],d=h;continue;case
 2:var
-i=D(c(2,q(c(2,c(2,b)))),d),j=G(c(2,b),i),a=a[1],d=j;continue;case
+i=E(c(2,r(c(2,c(2,b)))),d),j=G(c(2,b),i),a=a[1],d=j;continue;case
 3:var
-k=D(c(2,q(c(2,c(2,b)))),d),l=G(q(c(2,b)),k),a=a[1],d=l;continue;case
+k=E(c(2,r(c(2,c(2,b)))),d),l=G(r(c(2,b)),k),a=a[1],d=l;continue;case
 4:var
-m=D(c(2,q(c(2,c(2,b)))),d),n=G(c(2,c(2,b)),m),a=a[1],d=n;continue;case
+m=E(c(2,r(c(2,c(2,b)))),d),n=G(c(2,c(2,b)),m),a=a[1],d=n;continue;case
 5:var
-o=D(c(2,q(c(2,c(2,b)))),d),p=G(q(c(2,c(2,b))),o),a=a[1],d=p;continue;case
+o=E(c(2,r(c(2,c(2,b)))),d),p=G(r(c(2,c(2,b))),o),a=a[1],d=p;continue;case
 6:var
-r=D(c(2,q(c(2,c(2,b)))),d),s=G(c(2,q(c(2,b))),r),a=a[1],d=s;continue;case
+q=E(c(2,r(c(2,c(2,b)))),d),s=G(c(2,r(c(2,b))),q),a=a[1],d=s;continue;case
 7:var
-t=D(c(2,q(c(2,c(2,b)))),d),u=G(q(c(2,q(c(2,b)))),t),a=a[1],d=u;continue;case
+t=E(c(2,r(c(2,c(2,b)))),d),u=G(r(c(2,r(c(2,b)))),t),a=a[1],d=u;continue;case
 8:var
-v=D(c(2,q(c(2,c(2,b)))),d),w=G(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
-x=D(c(2,q(c(2,c(2,b)))),d),y=G(q(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
-i2(a){if(F(a,b))return uf;var
-c=aY(a,aO(2)),e=c[1];return L(c[2],d)?b0(i2(e)):b1(i2(e))}function
-gT(a){return gK(i2(a))}function
-mv(c,b){var
-a=l9(c,b);return 0===a?0:0<=a?2:1}function
-mw(b,a){return 0<aX(b)?0<aX(a)?gQ(b,a):0:0<aX(a)?0:1}function
-mx(b,a){return 2<=mv(b,a)?0:1}function
-gU(b,a){return 1===mv(b,a)?1:0}var
-my=G,uh=R;function
-cj(k,f){if(0<=aX(f)){var
-g=iW(f);if(0<=g){var
+v=E(c(2,r(c(2,c(2,b)))),d),w=G(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
+x=E(c(2,r(c(2,c(2,b)))),d),y=G(r(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
+jd(a){if(D(a,b))return ut;var
+c=a1(a,aQ(2)),e=c[1];return H(c[2],d)?b3(jd(e)):b4(jd(e))}function
+g1(a){return gS(jd(a))}function
+my(c,b){var
+a=ma(c,b);return 0===a?0:0<=a?2:1}function
+mz(b,a){return 0<a0(b)?0<a0(a)?gY(b,a):0:0<a0(a)?0:1}function
+mA(b,a){return 2<=my(b,a)?0:1}function
+g2(b,a){return 1===my(b,a)?1:0}var
+mB=G,uv=U;function
+cm(k,f){if(0<=a0(f)){var
+g=i9(f);if(0<=g){var
 e=b,c=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=D(c,c),j=1===(a&1)?D(e,c):e,e=j,c=i,a=h;continue}}return gJ(t$)}return d}function
-i3(c,b){var
-a=l9(c,b);return 0===a?0:0<=a?2:1}function
-i4(c){var
-a=aX(c);return 0===a?d:0<a?b:R(b)}function
-i5(a){return 0<=aX(a)?a:d}function
-eA(a){var
-c=aX(a);return 0===c?b:0<c?a:b}function
-mz(m){var
+h=a>>>1|0,i=E(c,c),j=1===(a&1)?E(e,c):e,e=j,c=i,a=h;continue}}return gR(un)}return d}function
+je(c,b){var
+a=ma(c,b);return 0===a?0:0<=a?2:1}function
+jf(c){var
+a=a0(c);return 0===a?d:0<a?b:U(b)}function
+jg(a){return 0<=a0(a)?a:d}function
+eC(a){var
+c=a0(a);return 0===c?b:0<c?a:b}function
+mC(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return cJ(a[1],b);case
+1:return cN(a[1],b);case
 2:var
-e=c(2,b);return cJ(a[1],e);case
+e=c(2,b);return cN(a[1],e);case
 3:var
-f=q(c(2,b));return cJ(a[1],f);case
+f=r(c(2,b));return cN(a[1],f);case
 4:var
-g=c(2,c(2,b));return cJ(a[1],g);case
+g=c(2,c(2,b));return cN(a[1],g);case
 5:var
-h=q(c(2,c(2,b)));return cJ(a[1],h);case
+h=r(c(2,c(2,b)));return cN(a[1],h);case
 6:var
-i=c(2,q(c(2,b)));return cJ(a[1],i);case
+i=c(2,r(c(2,b)));return cN(a[1],i);case
 7:var
-j=q(c(2,q(c(2,b))));return cJ(a[1],j);case
+j=r(c(2,r(c(2,b))));return cN(a[1],j);case
 8:var
-k=c(2,c(2,c(2,b)));return cJ(a[1],k);default:var
-l=q(c(2,c(2,c(2,b))));return cJ(a[1],l)}}function
-cK(b,a){var
-c=aX(a);return 0===c?d:1===c?l_(b,a):mj(-1,l_(mj(-1,b),a))}function
-mA(a){var
-f=aX(a);if(0===f)return d;if(0<f){if(F(a,b))return d;var
-c=aY(a,aO(2)),e=c[1];return L(c[2],d)?gP(e):gP(e)}return d}function
-gV(a){return 0<aX(a)?LH(a):d}function
-fx(b,c){var
-a=iW(c);return 0<=a?t3(b,a):t4(b,-a|0)}function
-dK(b,c){var
-a=iW(c);return 0<=a?t4(b,a):t3(b,-a|0)}function
-bK(b,a){return a?a[1]:b}function
-bC(a){var
+k=c(2,c(2,c(2,b)));return cN(a[1],k);default:var
+l=r(c(2,c(2,c(2,b))));return cN(a[1],l)}}function
+cO(b,a){var
+c=a0(a);return 0===c?d:1===c?mb(b,a):mm(-1,mb(mm(-1,b),a))}function
+mD(a){var
+f=a0(a);if(0===f)return d;if(0<f){if(D(a,b))return d;var
+c=a1(a,aQ(2)),e=c[1];return H(c[2],d)?gX(e):gX(e)}return d}function
+g3(a){return 0<a0(a)?LX(a):d}function
+fC(b,c){var
+a=i9(c);return 0<=a?uf(b,a):ug(b,-a|0)}function
+dO(b,c){var
+a=i9(c);return 0<=a?ug(b,a):uf(b,-a|0)}function
+bG(b,a){return a?a[1]:b}function
+bx(a){var
 b=a?a[2]:a;return b}function
-r(e,d,c){var
+q(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
-E(d,c){var
+F(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-eB(d,c){var
+eD(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-cL(a){if(a){var
-b=cL(a[2]);return g(a[1],b)}return a}function
-i6(g,f,e){var
+cP(a){if(a){var
+b=cP(a[2]);return g(a[1],b)}return a}function
+jh(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=as(g,b[1],a[1]);if(c){var
+c=at(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
@@ -1025,12 +1025,12 @@ var
 c=a;return c}function
 y(b,a){if(a){var
 c=y(b,a[2]);return g(h(b,a[1]),c)}return a}function
-bD(e,d,c){var
+by(e,d,c){var
 a=d,b=c;for(;;){if(a){var
-f=as(e,b,a[1]),a=a[2],b=f;continue}return b}}function
-aq(c,b,a){if(a){var
-d=aq(c,b,a[2]);return as(c,a[1],d)}return b}function
-aj(e,d){var
+f=at(e,b,a[1]),a=a[2],b=f;continue}return b}}function
+am(c,b,a){if(a){var
+d=am(c,b,a[2]);return at(c,a[1],d)}return b}function
+ag(e,d){var
 a=d;for(;;){if(a){var
 b=h(e,a[1]);if(!b){var
 a=a[2];continue}var
@@ -1041,137 +1041,137 @@ l(d,c){var
 a=c;for(;;){if(a){var
 b=h(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-aZ(b,e){var
+aW(b,e){var
 a=e;for(;;){if(a){var
-c=a[2],d=a[1];if(h(b,d))return[0,d,aZ(b,c)];var
+c=a[2],d=a[1];if(h(b,d))return[0,d,aW(b,c)];var
 a=c;continue}return a}}function
-mB(d,c){var
+mE(d,c){var
 a=c;for(;;){if(a){var
 b=a[1];if(h(d,b))return[0,b];var
 a=a[2];continue}return a}}function
-V(b,a){if(b)if(a)var
-d=V(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+N(b,a){if(b)if(a)var
+d=N(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-ao(b,a){if(b)if(a)var
-d=ao(b[1],a[2]),c=[0,a[1],d];else
+aq(b,a){if(b)if(a)var
+d=aq(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-ay(d,c){var
+az(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
-aB(b,a){var
-c=a?[0,b,aB([0,b],a[1])]:a;return c}function
-ab(b,a){var
-c=a?[0,b,ab(b,a[1])]:a;return c}function
-mC(a){return aq(N,0,a)}function
-mD(a){if(a){var
-e=mD(a[2]),f=D(c(2,b),e),g=a[1]?b:d;return G(g,f)}return d}function
-mE(j){function
+aA(b,a){var
+c=a?[0,b,aA([0,b],a[1])]:a;return c}function
+$(b,a){var
+c=a?[0,b,$(b,a[1])]:a;return c}function
+mF(a){return am(O,0,a)}function
+mG(a){if(a){var
+e=mG(a[2]),f=E(c(2,b),e),g=a[1]?b:d;return G(g,f)}return d}function
+mH(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=mD([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aX(b)?fw(b):0}function
-mF(c,b){var
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=mG([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a0(b)?fB(b):0}function
+mI(c,b){var
 a=c-b|0,d=0<=a?0===a?0:2:1;return 2<=d?0:1}function
-mG(a){return[0,a,b]}function
-eC(b,a){return i3(D(b[1],a[2]),D(a[1],b[2]))?0:1}function
-bo(b,a){return F(D(b[1],a[2]),D(a[1],b[2]))}function
-dL(b,a){return[0,G(D(b[1],a[2]),D(a[1],b[2])),D(b[2],a[2])]}function
-a_(b,a){return[0,D(b[1],a[1]),D(b[2],a[2])]}function
-gW(a){return[0,R(a[1]),a[2]]}function
-dM(b,a){return dL(b,gW(a))}function
-gX(f,c){var
-a=c[1],e=aX(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,R(c[2]),R(a)];return a_(f,g)}function
-dN(q){var
-a=q[2],b=q[1],o=aX(b);if(0===o)var
-c=[0,cG(a),[0,d,i4(a)]];else
+mJ(a){return[0,a,b]}function
+eE(b,a){return je(E(b[1],a[2]),E(a[1],b[2]))?0:1}function
+bp(b,a){return D(E(b[1],a[2]),E(a[1],b[2]))}function
+dP(b,a){return[0,G(E(b[1],a[2]),E(a[1],b[2])),E(b[2],a[2])]}function
+bb(b,a){return[0,E(b[1],a[1]),E(b[2],a[2])]}function
+g4(a){return[0,U(a[1]),a[2]]}function
+dQ(b,a){return dP(b,g4(a))}function
+g5(f,c){var
+a=c[1],e=a0(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,U(c[2]),U(a)];return bb(f,g)}function
+dR(q){var
+a=q[2],b=q[1],o=a0(b);if(0===o)var
+c=[0,cK(a),[0,d,jf(a)]];else
 if(0<o){var
-n=aX(a);if(0===n)var
-c=[0,cG(b),[0,i4(b),d]];else
+n=a0(a);if(0===n)var
+c=[0,cK(b),[0,jf(b),d]];else
 if(0<n)var
-l=gS(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
+l=g0(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
-j=gS(b,R(a)),k=j[2],c=[0,j[1],[0,k[1],R(k[2])]]}else{var
-p=R(b),i=aX(a);if(0===i)var
-c=[0,cG(b),[0,i4(b),d]];else
+j=g0(b,U(a)),k=j[2],c=[0,j[1],[0,k[1],U(k[2])]]}else{var
+p=U(b),i=a0(a);if(0===i)var
+c=[0,cK(b),[0,jf(b),d]];else
 if(0<i)var
-g=gS(p,a),h=g[2],c=[0,g[1],[0,R(h[1]),h[2]]];else
+g=g0(p,a),h=g[2],c=[0,g[1],[0,U(h[1]),h[2]]];else
 var
-e=gS(p,R(a)),f=e[2],c=[0,e[1],[0,R(f[1]),R(f[2])]]}var
-r=c[2],s=eA(r[2]);return[0,r[1],s]}function
-bw(a){if(typeof
-a==="number")return uj;else
+e=g0(p,U(a)),f=e[2],c=[0,e[1],[0,U(f[1]),U(f[2])]]}var
+r=c[2],s=eC(r[2]);return[0,r[1],s]}function
+bz(a){if(typeof
+a==="number")return ux;else
 switch(a[0]){case
 0:var
-b=bw(a[1]);return bn(bZ(1,48),b);case
+b=bz(a[1]);return bo(b2(1,48),b);case
 1:var
-c=bw(a[1]);return bn(bZ(1,49),c);case
+c=bz(a[1]);return bo(b2(1,49),c);case
 2:var
-d=bw(a[1]);return bn(bZ(1,50),d);case
+d=bz(a[1]);return bo(b2(1,50),d);case
 3:var
-e=bw(a[1]);return bn(bZ(1,51),e);case
+e=bz(a[1]);return bo(b2(1,51),e);case
 4:var
-f=bw(a[1]);return bn(bZ(1,52),f);case
+f=bz(a[1]);return bo(b2(1,52),f);case
 5:var
-g=bw(a[1]);return bn(bZ(1,53),g);case
+g=bz(a[1]);return bo(b2(1,53),g);case
 6:var
-h=bw(a[1]);return bn(bZ(1,54),h);case
+h=bz(a[1]);return bo(b2(1,54),h);case
 7:var
-i=bw(a[1]);return bn(bZ(1,55),i);case
+i=bz(a[1]);return bo(b2(1,55),i);case
 8:var
-j=bw(a[1]);return bn(bZ(1,56),j);default:var
-k=bw(a[1]);return bn(bZ(1,57),k)}}function
-fy(a){return typeof
-a==="number"?uk:bw(a)}function
-cM(a){return cj(c(2,b),a)}function
-mH(b,a){return dK(a,b)}function
-mI(b,a){return R(dK(R(a),b))}function
-gY(b,a){return R(cK(R(b),a))}function
-J(c,b){var
-a=fx(b,c);return[0,a,a]}function
-mJ(d,c,a){var
-b=fx(c,d),e=gY(b,a);return[0,cK(b,a),e]}function
-A(b,a){return[0,G(b[1],a[1]),G(b[2],a[2])]}function
-C(b,a){return[0,aR(b[1],a[2]),aR(b[2],a[1])]}function
-$(a){return[0,R(a[2]),R(a[1])]}function
-mK(e,c,b,a){if(F(d,e))return F(d,b)?[0,D(e,b),D(c,a)]:F(a,d)?[0,D(c,b),D(e,a)]:[0,D(c,b),D(c,a)];if(F(c,d))return F(d,b)?[0,D(e,a),D(c,b)]:F(a,d)?[0,D(c,a),D(e,b)]:[0,D(e,a),D(e,b)];if(F(d,b))return[0,D(e,a),D(c,a)];if(F(a,d))return[0,D(c,b),D(e,b)];var
-f=bv(D(e,b),D(c,a));return[0,i0(D(e,a),D(c,b)),f]}function
-t(c,b,a){var
-d=mK(b[1],b[2],a[1],a[2]),e=mI(c,d[2]);return[0,mH(c,d[1]),e]}function
-S(b,a){var
-c=D(a[1],a[1]),e=D(a[2],a[2]),h=mI(b,bv(c,e)),g=0;if(K(a[1],d)&&K(d,a[2])){var
+j=bz(a[1]);return bo(b2(1,56),j);default:var
+k=bz(a[1]);return bo(b2(1,57),k)}}function
+fD(a){return typeof
+a==="number"?uy:bz(a)}function
+cQ(a){return cm(c(2,b),a)}function
+mK(b,a){return dO(a,b)}function
+mL(b,a){return U(dO(U(a),b))}function
+g6(b,a){return U(cO(U(b),a))}function
+L(c,b){var
+a=fC(b,c);return[0,a,a]}function
+mM(d,c,a){var
+b=fC(c,d),e=g6(b,a);return[0,cO(b,a),e]}function
+z(b,a){return[0,G(b[1],a[1]),G(b[2],a[2])]}function
+B(b,a){return[0,aT(b[1],a[2]),aT(b[2],a[1])]}function
+Q(a){return[0,U(a[2]),U(a[1])]}function
+mN(e,c,b,a){if(D(d,e))return D(d,b)?[0,E(e,b),E(c,a)]:D(a,d)?[0,E(c,b),E(e,a)]:[0,E(c,b),E(c,a)];if(D(c,d))return D(d,b)?[0,E(e,a),E(c,b)]:D(a,d)?[0,E(c,a),E(e,b)]:[0,E(e,a),E(e,b)];if(D(d,b))return[0,E(e,a),E(c,a)];if(D(a,d))return[0,E(c,b),E(e,b)];var
+f=bw(E(e,b),E(c,a));return[0,jb(E(e,a),E(c,b)),f]}function
+s(c,b,a){var
+d=mN(b[1],b[2],a[1],a[2]),e=mL(c,d[2]);return[0,mK(c,d[1]),e]}function
+P(b,a){var
+c=E(a[1],a[1]),e=E(a[2],a[2]),h=mL(b,bw(c,e)),g=0;if(I(a[1],d)&&I(d,a[2])){var
 f=d;g=1}if(!g)var
-f=mH(b,i0(c,e));return[0,f,h]}function
-i7(b,a){var
-c=fx(cM(b),b),d=gY(c,a[1]);return[0,cK(c,a[2]),d]}function
-b2(b,a){if(K(d,a[1]))return[0,i7(b,a)];var
-c=K(a[2],d),e=c?[0,$(i7(b,$(a)))]:c;return e}function
-i8(c){var
-a=gV(c);return L(D(a,a),c)?a:G(a,b)}function
-ck(b,a){var
-c=K(d,a[1]);if(c)var
-f=i8(fx(a[2],b)),e=[0,[0,gV(fx(a[1],b)),f]];else
+f=mK(b,jb(c,e));return[0,f,h]}function
+g7(b,a){var
+c=fC(cQ(b),b),d=g6(c,a[1]);return[0,cO(c,a[2]),d]}function
+bN(b,a){if(I(d,a[1]))return[0,g7(b,a)];var
+c=I(a[2],d),e=c?[0,Q(g7(b,Q(a)))]:c;return e}function
+ji(c){var
+a=g3(c);return H(E(a,a),c)?a:G(a,b)}function
+cn(b,a){var
+c=I(d,a[1]);if(c)var
+f=ji(fC(a[2],b)),e=[0,[0,g3(fC(a[1],b)),f]];else
 var
 e=c;return e}function
-eD(a){return 0===a[0]?a[2]:a[1]}function
-aU(f,d,c,b,a){if(b){if(a){var
-g=aU(f,d,c,b[2],a[2]);return[0,as(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
-c9(b,a){return dK(b,a)}function
-aS(a,c,b){if(F(d,a)){var
-e=b[1],f=R(c9(R(D(a,b[2])),c));return[0,c9(D(a,e),c),f]}var
-g=b[2],h=R(c9(R(D(a,b[1])),c));return[0,c9(D(a,g),c),h]}function
-au(a){var
-c=R(dK(R(a[2]),b));return[0,dK(a[1],b),c]}function
-eE(c,b,a){var
-e=mK(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=K(f,d)?a[2]:a[1],i=gY(f,h),j=K(g,d)?a[1]:a[2];return[0,cK(g,j),i]}function
-bL(a){return bv(a[2],R(a[1]))}var
-u=[0,d,d];function
-cl(a){return[0,a[1],a[1]]}function
-cN(a){return[0,a[2],a[2]]}function
-b3(b,a){switch(a[0]){case
+eF(a){return 0===a[0]?a[2]:a[1]}function
+aL(f,d,c,b,a){if(b){if(a){var
+g=aL(f,d,c,b[2],a[2]);return[0,at(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
+da(b,a){return dO(b,a)}function
+aH(a,c,b){if(D(d,a)){var
+e=b[1],f=U(da(U(E(a,b[2])),c));return[0,da(E(a,e),c),f]}var
+g=b[2],h=U(da(U(E(a,b[1])),c));return[0,da(E(a,g),c),h]}function
+an(a){var
+c=U(dO(U(a[2]),b));return[0,dO(a[1],b),c]}function
+co(c,b,a){var
+e=mN(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=I(f,d)?a[2]:a[1],i=g6(f,h),j=I(g,d)?a[1]:a[2];return[0,cO(g,j),i]}function
+bO(a){return bw(a[2],U(a[1]))}var
+t=[0,d,d];function
+bA(a){return[0,a[1],a[1]]}function
+b5(a){return[0,a[2],a[2]]}function
+b6(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
@@ -1187,68 +1187,68 @@ f=h(b,a[2]);return[7,h(b,a[1]),f];case
 8:return[8,h(b,a[1])];case
 9:return[9,h(b,a[1])];default:var
 g=h(b,a[4]),i=h(b,a[3]),j=h(b,a[2]);return[10,a[1],j,i,g]}}function
-a0(o,m){var
-d=o,c=m;for(;;){var
+a2(o,n){var
+d=o,c=n;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
-0:return 0===a[0]?n(b[1],a[1]):0;case
-1:return 1===a[0]?n(b[1],a[1]):0;case
-2:return 2===a[0]?L(b[1],a[1]):0;case
+0:return 0===a[0]?m(b[1],a[1]):0;case
+1:return 1===a[0]?m(b[1],a[1]):0;case
+2:return 2===a[0]?H(b[1],a[1]):0;case
 3:if(3===a[0]){var
-f=a0(b[1],a[1]);if(f){var
+f=a2(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 4:if(4===a[0]){var
-g=a0(b[1],a[1]);if(g){var
+g=a2(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-h=a0(b[1],a[1]);if(h){var
+h=a2(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 7:if(7===a[0]){var
-i=a0(b[1],a[1]);if(i){var
+i=a2(b[1],a[1]);if(i){var
 d=b[2],c=a[2];continue}return i}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 9:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(10===a[0]){var
-j=cI(b[1],a[1]);if(j){var
-k=a0(b[2],a[2]);if(k){var
-l=a0(b[3],a[3]);if(l){var
+j=cM(b[1],a[1]);if(j){var
+k=a2(b[2],a[2]);if(k){var
+l=a2(b[3],a[3]);if(l){var
 d=b[4],c=a[4];continue}var
 e=l}else
 var
 e=k}else
 var
 e=j;return e}return 0}}}function
-gZ(b){var
+g8(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
-be(c,b){var
-a=gZ(b);return a?L(c,a[1]):a}function
-fz(a){return K(cG(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
-m(a){return[0,[2,a]]}function
-B(b,a){if(be(d,b))return a;if(be(d,a))return b;var
-c=gZ(b);if(c){var
-e=c[1],f=gZ(a);if(f){var
-g=f[1];if(fz(e)&&fz(g))return m(G(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-bx(a){var
+bf(c,b){var
+a=g8(b);return a?H(c,a[1]):a}function
+fE(a){return I(cK(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
+n(a){return[0,[2,a]]}function
+C(b,a){if(bf(d,b))return a;if(bf(d,a))return b;var
+c=g8(b);if(c){var
+e=c[1],f=g8(a);if(f){var
+g=f[1];if(fE(e)&&fE(g))return n(G(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+bB(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return fz(c)?m(R(c)):[0,[5,a]];case
+c=b[1];return fE(c)?n(U(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-z(b,a){if(be(d,a))return b;if(be(d,b))return bx(a);var
+A(b,a){if(bf(d,a))return b;if(bf(d,b))return bB(a);var
 c=b[1];if(0===c[0]){var
-e=a[1];return 0===e[0]?n(c[1],e[1])?m(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
-W(a){var
-c=gZ(a);if(c){var
-b=c[1];return fz(b)?m(D(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-s(a,c){if(!be(d,a)&&!be(b,c)){if(!be(d,c)&&!be(b,a))return a0(a,c)?W(a):[0,[6,a,c]];return c}return a}function
-ai(c,a){return be(b,a)?c:[0,[7,c,a]]}function
-aM(a){return be(b,a)?a:[0,[9,a]]}function
-mL(d,c,b,a){return[0,[10,d,c,b,a]]}function
-eF(b,a){if(a){var
+e=a[1];return 0===e[0]?m(c[1],e[1])?n(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
+X(a){var
+c=g8(a);if(c){var
+b=c[1];return fE(b)?n(E(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+u(a,c){if(!bf(d,a)&&!bf(b,c)){if(!bf(d,c)&&!bf(b,a))return a2(a,c)?X(a):[0,[6,a,c]];return c}return a}function
+aj(c,a){return bf(b,a)?c:[0,[7,c,a]]}function
+aO(a){return bf(b,a)?a:[0,[9,a]]}function
+mO(d,c,b,a){return[0,[10,d,c,b,a]]}function
+eG(b,a){if(a){var
 c=a[3];if(c){var
-d=a[1];return n(d,c[1])?[0,[0,d],[1,b,a[2],c[2]],c[3]]:[0,0,[0,b],a]}return[0,0,[0,b],a]}return[0,0,[0,b],a]}function
-i9(g,f,e){var
+d=a[1];return m(d,c[1])?[0,[0,d],[1,b,a[2],c[2]],c[3]]:[0,0,[0,b],a]}return[0,0,[0,b],a]}return[0,0,[0,b],a]}function
+jj(g,f,e){var
 c=f,d=e;for(;;){if(d){if(typeof
 c!=="number"&&2===c[0]){var
 c=c[1],d=d[3];continue}var
@@ -1258,34 +1258,34 @@ b!=="number")switch(b[0]){case
 b=b[1],a=a[2];continue;case
 1:var
 b=b[1],a=a[3];continue}return a[1]}}return g}}function
-i_(a,b){if(0===a[0])return[0,a[1],b];var
-c=i_(a[3],b),d=i_(a[2],c);return[0,a[1],d]}function
-i$(a){if(a){var
-b=i$(a[3]);return i_(a[2],b)}return a}function
-mM(a){if(a){var
+jk(a,b){if(0===a[0])return[0,a[1],b];var
+c=jk(a[3],b),d=jk(a[2],c);return[0,a[1],d]}function
+jl(a){if(a){var
+b=jl(a[3]);return jk(a[2],b)}return a}function
+mP(a){if(a){var
 c=a[3],b=a[2],d=a[1];if(0===b[0])return[0,[0,b[1],c]];var
-e=b[3],f=[0,aT(d),e,c],g=b[2],h=[0,aT(d),g,f];return[0,[0,b[1],h]]}return a}function
-ja(c,b,a){if(0===a[0])return[0,c];var
+e=b[3],f=[0,aU(d),e,c],g=b[2],h=[0,aU(d),g,f];return[0,[0,b[1],h]]}return a}function
+jm(c,b,a){if(0===a[0])return[0,c];var
 d=a[3],e=a[2],f=a[1];if(typeof
 b!=="number")switch(b[0]){case
-0:return[1,f,ja(c,b[1],e),d];case
-1:return[1,f,e,ja(c,b[1],d)]}return[1,c,e,d]}function
-mN(c,b,a){if(a){var
+0:return[1,f,jm(c,b[1],e),d];case
+1:return[1,f,e,jm(c,b[1],d)]}return[1,c,e,d]}function
+mQ(c,b,a){if(a){var
 d=a[3],e=a[2],f=a[1];if(typeof
-b!=="number"&&2===b[0])return[0,f,e,mN(c,b[1],d)];var
-g=[0,f,ja(c,b,e),d]}else
+b!=="number"&&2===b[0])return[0,f,e,mQ(c,b[1],d)];var
+g=[0,f,jm(c,b,e),d]}else
 var
 g=a;return g}function
-c_(g,f,e){var
+cR(g,f,e){var
 b=e,a=0;for(;;){if(b){var
-c=b[1],d=eF(h(f,b3(function(b){return function(a){return i9(g,a,b)}}(a),c)),a),b=b[2],a=d;continue}return i$(a)}}function
-c$(e,g,m,l){var
+c=b[1],d=eG(h(f,b6(function(b){return function(a){return jj(g,a,b)}}(a),c)),a),b=b[2],a=d;continue}return jl(a)}}function
+db(e,g,m,l){var
 b=m,c=l,a=0;for(;;){if(c){var
 d=c[2],f=c[1];if(b){if(b[1]){var
-i=eF(h(g,b3(function(b){return function(a){return i9(e,a,b)}}(a),f)),a),b=bC(b),c=d,a=i;continue}var
-j=eF(e,a),b=b[2],c=d,a=j;continue}var
-k=eF(h(g,b3(function(b){return function(a){return i9(e,a,b)}}(a),f)),a),b=bC(b),c=d,a=k;continue}return i$(a)}}function
-mO(a){switch(a[0]){case
+i=eG(h(g,b6(function(b){return function(a){return jj(e,a,b)}}(a),f)),a),b=bx(b),c=d,a=i;continue}var
+j=eG(e,a),b=b[2],c=d,a=j;continue}var
+k=eG(h(g,b6(function(b){return function(a){return jj(e,a,b)}}(a),f)),a),b=bx(b),c=d,a=k;continue}return jl(a)}}function
+mR(a){switch(a[0]){case
 10:return[0,a[2],[0,a[3],[0,a[4],0]]];case
 5:case
 8:case
@@ -1293,137 +1293,137 @@ mO(a){switch(a[0]){case
 0:case
 1:case
 2:return 0;default:return[0,a[1],[0,a[2],0]]}}var
-ul=1;function
-mP(a,b){return mN(ul,a,b)}function
-mQ(e,c){if(c){var
+uz=1;function
+mS(a,b){return mQ(uz,a,b)}function
+mT(e,c){if(c){var
 f=c[2],g=c[1],b=g,a=e;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}var
 d=[0,b]}else
 var
 d=[1,a];if(0===d[0])return[0,e,[0,d[1],f]];var
-h=d[1];return h?[0,g,mQ(h,f)]:c}}return[0,e,0]}function
-g0(c,b){if(b){var
+h=d[1];return h?[0,g,mT(h,f)]:c}}return[0,e,0]}function
+g9(c,b){if(b){var
 d=b[2];if(c){var
-a=c[2],e=c[1];if(e)return[0,0,g0([0,e[1],a],d)];if(a)var
-h=a[2],f=[0,aT(a[1]),h];else
+a=c[2],e=c[1];if(e)return[0,0,g9([0,e[1],a],d)];if(a)var
+h=a[2],f=[0,aU(a[1]),h];else
 var
-f=a;return[0,1,g0(f,d)]}var
-g=[0,0,g0(0,d)]}else
+f=a;return[0,1,g9(f,d)]}var
+g=[0,0,g9(0,d)]}else
 var
 g=b;return g}function
-mR(b,a){var
-c=0;return aq(eF,0,g0(bD(function(b,a){return mQ(a,b)},b,c),a))}function
-cO(k,h){var
-l=mR(k,h),b=eB(h,0),c=l,a=0;for(;;){if(b){var
-d=mM(c);if(d){var
-e=d[1],f=e[2],g=e[1],i=[0,g,a],j=g?aq(mP,f,mO(b[1])):f,b=b[2],c=j,a=i;continue}return a}return a}}function
-da(a){function
-b(a){return[0,a]}return c_(m(d),b,a)}function
-O(a){switch(a[0]){case
+mU(b,a){var
+c=0;return am(eG,0,g9(by(function(b,a){return mT(a,b)},b,c),a))}function
+cp(k,h){var
+l=mU(k,h),b=eD(h,0),c=l,a=0;for(;;){if(b){var
+d=mP(c);if(d){var
+e=d[1],f=e[2],g=e[1],i=[0,g,a],j=g?am(mS,f,mR(b[1])):f,b=b[2],c=j,a=i;continue}return a}return a}}function
+dc(a){function
+b(a){return[0,a]}return cR(n(d),b,a)}function
+R(a){switch(a[0]){case
 0:return 0;case
-1:return um;case
-2:return un;case
-3:return uo;case
-4:return up;case
-5:return uq;case
-6:return ur;case
-7:return us;case
-8:return ut;case
-9:return uu;default:return uv}}function
-a7(J,I,H){var
+1:return uA;case
+2:return uB;case
+3:return uC;case
+4:return uD;case
+5:return uE;case
+6:return uF;case
+7:return uG;case
+8:return uH;case
+9:return uI;default:return uJ}}function
+a8(J,I,H){var
 e=J,g=I,f=H;for(;;){if(e){var
 j=e[1];if(j){var
-a=f[1],c=g[1],h=x(aT,e);switch(c[0]){case
-0:if(0===a[0])return ax(c[1],a[1]);var
-K=O(a);return ax(O(c),K);case
-1:if(1===a[0])return ax(c[1],a[1]);var
-L=O(a);return ax(O(c),L);case
-2:if(2===a[0])return i3(c[1],a[1]);var
-M=O(a);return ax(O(c),M);case
+a=f[1],c=g[1],h=x(aU,e);switch(c[0]){case
+0:if(0===a[0])return ay(c[1],a[1]);var
+K=R(a);return ay(R(c),K);case
+1:if(1===a[0])return ay(c[1],a[1]);var
+L=R(a);return ay(R(c),L);case
+2:if(2===a[0])return je(c[1],a[1]);var
+M=R(a);return ay(R(c),M);case
 3:if(3===a[0]){var
-k=a7(h,c[2],a[2]);if(k)return k;var
+k=a8(h,c[2],a[2]);if(k)return k;var
 e=h,g=c[1],f=a[1];continue}var
-N=O(a);return ax(O(c),N);case
+N=R(a);return ay(R(c),N);case
 4:if(4===a[0]){var
-l=a7(h,c[2],a[2]);if(l)return l;var
+l=a8(h,c[2],a[2]);if(l)return l;var
 e=h,g=c[1],f=a[1];continue}var
-P=O(a);return ax(O(c),P);case
+O=R(a);return ay(R(c),O);case
 5:if(5===a[0]){var
 e=h,g=c[1],f=a[1];continue}var
-Q=O(a);return ax(O(c),Q);case
+P=R(a);return ay(R(c),P);case
 6:if(6===a[0]){var
-m=a7(h,c[2],a[2]);if(m)return m;var
+m=a8(h,c[2],a[2]);if(m)return m;var
 e=h,g=c[1],f=a[1];continue}var
-R=O(a);return ax(O(c),R);case
+Q=R(a);return ay(R(c),Q);case
 7:if(7===a[0]){var
-n=a7(h,c[2],a[2]);if(n)return n;var
+n=a8(h,c[2],a[2]);if(n)return n;var
 e=h,g=c[1],f=a[1];continue}var
-S=O(a);return ax(O(c),S);case
+S=R(a);return ay(R(c),S);case
 8:if(8===a[0]){var
 e=h,g=c[1],f=a[1];continue}var
-T=O(a);return ax(O(c),T);case
+T=R(a);return ay(R(c),T);case
 9:if(9===a[0]){var
 e=h,g=c[1],f=a[1];continue}var
-U=O(a);return ax(O(c),U);default:var
+U=R(a);return ay(R(c),U);default:var
 o=c[4],p=c[3],q=c[2];if(c[1]){if(10===a[0]){if(a[1]){var
-r=a7(h,o,a[4]);if(r)return r;var
-s=a7(h,p,a[3]);if(s)return s;var
+r=a8(h,o,a[4]);if(r)return r;var
+s=a8(h,p,a[3]);if(s)return s;var
 e=h,g=q,f=a[2];continue}return 2}var
-V=O(a);return ax(O(c),V)}if(10===a[0]){if(a[1])return 1;var
-t=a7(h,o,a[4]);if(t)return t;var
-u=a7(h,p,a[3]);if(u)return u;var
+V=R(a);return ay(R(c),V)}if(10===a[0]){if(a[1])return 1;var
+t=a8(h,o,a[4]);if(t)return t;var
+u=a8(h,p,a[3]);if(u)return u;var
 e=h,g=q,f=a[2];continue}var
-W=O(a);return ax(O(c),W)}}return j}var
-b=f[1],d=g[1],i=x(aT,e);switch(d[0]){case
-0:if(0===b[0])return ax(d[1],b[1]);var
-X=O(b);return ax(O(d),X);case
-1:if(1===b[0])return ax(d[1],b[1]);var
-Y=O(b);return ax(O(d),Y);case
-2:if(2===b[0])return i3(d[1],b[1]);var
-Z=O(b);return ax(O(d),Z);case
+W=R(a);return ay(R(c),W)}}return j}var
+b=f[1],d=g[1],i=x(aU,e);switch(d[0]){case
+0:if(0===b[0])return ay(d[1],b[1]);var
+X=R(b);return ay(R(d),X);case
+1:if(1===b[0])return ay(d[1],b[1]);var
+Y=R(b);return ay(R(d),Y);case
+2:if(2===b[0])return je(d[1],b[1]);var
+Z=R(b);return ay(R(d),Z);case
 3:if(3===b[0]){var
-v=a7(i,d[2],b[2]);if(v)return v;var
+v=a8(i,d[2],b[2]);if(v)return v;var
 e=i,g=d[1],f=b[1];continue}var
-_=O(b);return ax(O(d),_);case
+_=R(b);return ay(R(d),_);case
 4:if(4===b[0]){var
-w=a7(i,d[2],b[2]);if(w)return w;var
+w=a8(i,d[2],b[2]);if(w)return w;var
 e=i,g=d[1],f=b[1];continue}var
-$=O(b);return ax(O(d),$);case
+$=R(b);return ay(R(d),$);case
 5:if(5===b[0]){var
 e=i,g=d[1],f=b[1];continue}var
-aa=O(b);return ax(O(d),aa);case
+aa=R(b);return ay(R(d),aa);case
 6:if(6===b[0]){var
-y=a7(i,d[2],b[2]);if(y)return y;var
+y=a8(i,d[2],b[2]);if(y)return y;var
 e=i,g=d[1],f=b[1];continue}var
-ab=O(b);return ax(O(d),ab);case
+ab=R(b);return ay(R(d),ab);case
 7:if(7===b[0]){var
-z=a7(i,d[2],b[2]);if(z)return z;var
+z=a8(i,d[2],b[2]);if(z)return z;var
 e=i,g=d[1],f=b[1];continue}var
-ac=O(b);return ax(O(d),ac);case
+ac=R(b);return ay(R(d),ac);case
 8:if(8===b[0]){var
 e=i,g=d[1],f=b[1];continue}var
-ad=O(b);return ax(O(d),ad);case
+ad=R(b);return ay(R(d),ad);case
 9:if(9===b[0]){var
 e=i,g=d[1],f=b[1];continue}var
-ae=O(b);return ax(O(d),ae);default:var
+ae=R(b);return ay(R(d),ae);default:var
 A=d[4],B=d[3],C=d[2];if(d[1]){if(10===b[0]){if(b[1]){var
-D=a7(i,A,b[4]);if(D)return D;var
-E=a7(i,B,b[3]);if(E)return E;var
+D=a8(i,A,b[4]);if(D)return D;var
+E=a8(i,B,b[3]);if(E)return E;var
 e=i,g=C,f=b[2];continue}return 2}var
-af=O(b);return ax(O(d),af)}if(10===b[0]){if(b[1])return 1;var
-F=a7(i,A,b[4]);if(F)return F;var
-G=a7(i,B,b[3]);if(G)return G;var
+af=R(b);return ay(R(d),af)}if(10===b[0]){if(b[1])return 1;var
+F=a8(i,A,b[4]);if(F)return F;var
+G=a8(i,B,b[3]);if(G)return G;var
 e=i,g=C,f=b[2];continue}var
-ag=O(b);return ax(O(d),ag)}}}function
-mS(b,a){var
-c=a7(uw,b,a);return c?c:a7(0,b,a)}function
-mT(c,b){var
-a=b;for(;;){if(a)switch(mS(c,a[3])){case
+ag=R(b);return ay(R(d),ag)}}}function
+mV(b,a){var
+c=a8(uK,b,a);return c?c:a8(0,b,a)}function
+mW(c,b){var
+a=b;for(;;){if(a)switch(mV(c,a[3])){case
 0:return[0,a[4]];case
 1:var
 a=a[2];continue;default:var
 a=a[5];continue}return a}}function
-ux(b,d,c,a){if(b){var
+uL(b,d,c,a){if(b){var
 e=b[5],s=b[4],t=b[3],l=b[2];if(b[1]){if(l){if(l[1])return[0,1,[0,0,l[2],l[3],l[4],l[5]],t,s,[0,0,e,d,c,a]];if(e){if(e[1])return[0,1,[0,0,l,t,s,e[2]],e[3],e[4],[0,0,e[5],d,c,a]];if(a){if(a[1]){var
 f=a[5],u=a[4],v=a[3],m=a[2];return m?m[1]?[0,1,[0,0,b,d,c,m[2]],m[3],m[4],[0,0,m[5],v,u,f]]:f?f[1]?[0,1,[0,0,b,d,c,m],v,u,[0,0,f[2],f[3],f[4],f[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:f?f[1]?[0,1,[0,0,b,d,c,m],v,u,[0,0,f[2],f[3],f[4],f[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}if(a){if(a[1]){var
 g=a[5],w=a[4],x=a[3],n=a[2];return n?n[1]?[0,1,[0,0,b,d,c,n[2]],n[3],n[4],[0,0,n[5],x,w,g]]:g?g[1]?[0,1,[0,0,b,d,c,n],x,w,[0,0,g[2],g[3],g[4],g[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:g?g[1]?[0,1,[0,0,b,d,c,n],x,w,[0,0,g[2],g[3],g[4],g[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}if(e){if(e[1])return[0,1,[0,0,l,t,s,e[2]],e[3],e[4],[0,0,e[5],d,c,a]];if(a){if(a[1]){var
@@ -1431,22 +1431,22 @@ h=a[5],y=a[4],z=a[3],o=a[2];return o?o[1]?[0,1,[0,0,b,d,c,o[2]],o[3],o[4],[0,0,o
 i=a[5],A=a[4],B=a[3],p=a[2];return p?p[1]?[0,1,[0,0,b,d,c,p[2]],p[3],p[4],[0,0,p[5],B,A,i]]:i?i[1]?[0,1,[0,0,b,d,c,p],B,A,[0,0,i[2],i[3],i[4],i[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:i?i[1]?[0,1,[0,0,b,d,c,p],B,A,[0,0,i[2],i[3],i[4],i[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}if(a){if(a[1]){var
 j=a[5],C=a[4],D=a[3],q=a[2];return q?q[1]?[0,1,[0,0,b,d,c,q[2]],q[3],q[4],[0,0,q[5],D,C,j]]:j?j[1]?[0,1,[0,0,b,d,c,q],D,C,[0,0,j[2],j[3],j[4],j[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:j?j[1]?[0,1,[0,0,b,d,c,q],D,C,[0,0,j[2],j[3],j[4],j[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}if(a){if(a[1]){var
 k=a[5],E=a[4],F=a[3],r=a[2];return r?r[1]?[0,1,[0,0,b,d,c,r[2]],r[3],r[4],[0,0,r[5],F,E,k]]:k?k[1]?[0,1,[0,0,b,d,c,r],F,E,[0,0,k[2],k[3],k[4],k[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:k?k[1]?[0,1,[0,0,b,d,c,r],F,E,[0,0,k[2],k[3],k[4],k[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}function
-jb(b,c,a){if(a){var
-e=a[5],f=a[4],d=a[3],g=a[2],h=a[1]?function(d,c,b,a){return[0,1,d,c,b,a]}:ux;switch(mS(b,d)){case
+jn(b,c,a){if(a){var
+e=a[5],f=a[4],d=a[3],g=a[2],h=a[1]?function(d,c,b,a){return[0,1,d,c,b,a]}:uL;switch(mV(b,d)){case
 0:return a;case
-1:return h(jb(b,c,g),d,f,e);default:return h(g,d,f,jb(b,c,e))}}return[0,1,0,b,c,0]}function
-mU(d,c,b){var
-a=jb(d,c,b),e=a?[0,0,a[2],a[3],a[4],a[5]]:a;return e}function
-cP(a){var
-b=bD(function(a,b){var
-c=mU(b,a[1],a[2]);return[0,[0,a[1]],c]},a,uy)[2];return function(c){var
-a=mT(c,b),d=a?a[1]:a;return d}}function
-jc(b,a){if(0===a[0])return 0;var
-c=a[3];return L(b,a[1])?0:F(b,c[1])?[1,jc(b,c)]:[0,jc(b,a[2])]}function
-mV(c,a){if(a){var
-b=a[3],d=b?F(c,b[2][1]):b;return d?[2,mV(c,b)]:jc(c,a[2])}return a}function
-dO(k,d){var
-n=mT(k,d[1]);if(n)return[0,n[1],d];var
+1:return h(jn(b,c,g),d,f,e);default:return h(g,d,f,jn(b,c,e))}}return[0,1,0,b,c,0]}function
+mX(d,c,b){var
+a=jn(d,c,b),e=a?[0,0,a[2],a[3],a[4],a[5]]:a;return e}function
+cS(a){var
+b=by(function(a,b){var
+c=mX(b,a[1],a[2]);return[0,[0,a[1]],c]},a,uM)[2];return function(c){var
+a=mW(c,b),d=a?a[1]:a;return d}}function
+jo(b,a){if(0===a[0])return 0;var
+c=a[3];return H(b,a[1])?0:D(b,c[1])?[1,jo(b,c)]:[0,jo(b,a[2])]}function
+mY(c,a){if(a){var
+b=a[3],d=b?D(c,b[2][1]):b;return d?[2,mY(c,b)]:jo(c,a[2])}return a}function
+dS(k,d){var
+n=mW(k,d[1]);if(n)return[0,n[1],d];var
 a=k[1],e=0;switch(a[0]){case
 0:var
 u=a[1],f=function(a){return[0,u]},c=d;break;case
@@ -1468,41 +1468,41 @@ M=function(b,a){return[7,b,a]},j=M,i=a[2],g=a[1];e=1;break;case
 N=function(a){return[8,a]},m=N,l=a[1];e=2;break;case
 9:var
 O=function(a){return[9,a]},m=O,l=a[1];e=2;break;default:var
-P=a[1],r=dO(a[2],d),Q=r[1],s=dO(a[3],r[2]),R=s[1],t=dO(a[4],s[2]),S=t[1],T=function(a){var
+P=a[1],r=dS(a[2],d),Q=r[1],s=dS(a[3],r[2]),R=s[1],t=dS(a[4],s[2]),S=t[1],T=function(a){var
 b=h(a,S),c=h(a,R);return[10,P,h(a,Q),c,b]},f=T,c=t[2]}switch(e){case
 1:var
-o=dO(g,d),D=o[1],p=dO(i,o[2]),E=p[1],F=function(a){var
+o=dS(g,d),D=o[1],p=dS(i,o[2]),E=p[1],F=function(a){var
 b=h(a,E);return j(h(a,D),b)},f=F,c=p[2];break;case
 2:var
-q=dO(l,d),J=q[1],K=function(a){return m(h(a,J))},f=K,c=q[2];break}var
-v=c[4],w=[0,f(function(a){return mV(a,c[2])}),v],x=G(c[3],b),y=eF(c[3],c[2]),z=[0,mU(k,c[3],c[1]),y,x,w];return[0,c[3],z]}function
-db(a){var
-b=0,c=[0,0,0,d,0];return eB(bD(function(b,a){return dO(a,b)[2]},a,c)[4],b)}function
-g1(a){return aq(function(b,a){return G(bL(b),a)},d,a)}function
-cQ(a,c,b){var
-d=g1(b),e=i0(c[2],G(a[2],d));return[0,a,[0,bv(c[1],aR(a[1],d)),e],b]}function
-ad(a){return[0,a,a,0]}function
-cm(b,a){var
+q=dS(l,d),J=q[1],K=function(a){return m(h(a,J))},f=K,c=q[2];break}var
+v=c[4],w=[0,f(function(a){return mY(a,c[2])}),v],x=G(c[3],b),y=eG(c[3],c[2]),z=[0,mX(k,c[3],c[1]),y,x,w];return[0,c[3],z]}function
+dd(a){var
+b=0,c=[0,0,0,d,0];return eD(by(function(b,a){return dS(a,b)[2]},a,c)[4],b)}function
+g_(a){return am(function(b,a){return G(bO(b),a)},d,a)}function
+cT(a,c,b){var
+d=g_(b),e=jb(c[2],G(a[2],d));return[0,a,[0,bw(c[1],aT(a[1],d)),e],b]}function
+_(a){return[0,a,a,0]}function
+cq(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=aU(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return cQ(A(b[1],a[1]),g,f)}function
-bf(b,a){var
-c=a[3],d=b[3],e=aU(function(a){return a},$,C,d,c),f=C(b[2],a[2]);return cQ(C(b[1],a[1]),f,e)}function
-dP(a){var
-b=e($,a[3]),c=$(a[2]);return[0,$(a[1]),c,b]}function
-aG(a,c,b){var
-d=A(b[2],b[1]),e=A(c[2],c[1]),f=b[3],g=c[3];function
+f=aL(function(a){return a},e,z,d,c),g=z(b[2],a[2]);return cT(z(b[1],a[1]),g,f)}function
+bg(b,a){var
+c=a[3],d=b[3],e=aL(function(a){return a},Q,B,d,c),f=B(b[2],a[2]);return cT(B(b[1],a[1]),f,e)}function
+dT(a){var
+b=e(Q,a[3]),c=Q(a[2]);return[0,Q(a[1]),c,b]}function
+aI(a,c,b){var
+d=z(b[2],b[1]),e=z(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=t(a,e,b);return au(A(t(a,d,c),f))}function
-i(b){return au(t(a,e,b))}var
-j=aU(function(b){return au(t(a,d,b))},i,h,g,f),k=t(a,c[2],b[2]);return cQ(t(a,c[1],b[1]),k,j)}function
-eG(b,a){var
-c=a[3],d=A(a[2],a[1]),f=e(function(a){return t(b,d,a)},c),g=S(b,a[2]);return cQ(S(b,a[1]),g,f)}function
-jd(a,b){var
-c=ck(a,b[1]);if(c){var
-g=c[1],d=ck(a,b[2]);if(d){var
-h=d[1],f=b2(a,A(h,g));if(f)var
-l=b[3],m=f[1],i=[0,cQ(g,h,e(function(b){return t(a,m,b)},l))];else
+f=s(a,e,b);return an(z(s(a,d,c),f))}function
+i(b){return an(s(a,e,b))}var
+j=aL(function(b){return an(s(a,d,b))},i,h,g,f),k=s(a,c[2],b[2]);return cT(s(a,c[1],b[1]),k,j)}function
+eH(b,a){var
+c=a[3],d=z(a[2],a[1]),f=e(function(a){return s(b,d,a)},c),g=P(b,a[2]);return cT(P(b,a[1]),g,f)}function
+jp(a,b){var
+c=cn(a,b[1]);if(c){var
+g=c[1],d=cn(a,b[2]);if(d){var
+h=d[1],f=bN(a,z(h,g));if(f)var
+l=b[3],m=f[1],i=[0,cT(g,h,e(function(b){return s(a,m,b)},l))];else
 var
 i=f;var
 j=i}else
@@ -1511,494 +1511,498 @@ j=d;var
 k=j}else
 var
 k=c;return k}function
-eH(a,c,b){var
-d=b2(a,b[1]);if(d){var
-f=b2(a,b[2]);if(f)var
-h=f[1],g=t(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return C(c,t(a,g,b))},n=function(b){return $(t(a,g,b))},o=aU(function(a){return a},n,m,l,k),p=e(function(b){return t(a,h,b)},o),i=[0,cQ(g,t(a,c[2],h),p)];else
+eI(a,c,b){var
+d=bN(a,b[1]);if(d){var
+f=bN(a,b[2]);if(f)var
+h=f[1],g=s(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return B(c,s(a,g,b))},n=function(b){return Q(s(a,g,b))},o=aL(function(a){return a},n,m,l,k),p=e(function(b){return s(a,h,b)},o),i=[0,cT(g,s(a,c[2],h),p)];else
 var
 i=f;var
 j=i}else
 var
 j=d;return j}function
-dc(b,a){return a?h(b,a[1]):a}function
-g2(a){var
-b=e(au,a[3]),c=au(A(a[2],a[1]));return cQ(a[1],c,b)}function
-mW(a,k,j,r,c){var
-l=g2(k),m=g2(j),g=g2(c[1]),h=g2(c[2]),s=aG(a,l,h),u=bf(aG(a,m,g),s),i=eH(a,ad(J(a,b)),u);if(i)var
-f=i[1],n=aG(a,bf(l,g),f),o=aG(a,bf(m,h),f),d=function(c,b){return aG(a,c,ad(b))},v=j[3],w=k[3],x=function(b,a){var
-c=d(o,a);return cm(d(n,b),c)},y=function(a){return d(o,a)},z=aU(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return bf(b,d(f,au(a)))[2]},C=function(a){return dP(d(f,au(a)))[2]},p=aU(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=cQ(c[2][1],c[2][2],E),G=$(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,cQ(c[1][1],c[1][2],H),F]];else
+de(b,a){return a?h(b,a[1]):a}function
+g$(a){var
+b=e(an,a[3]),c=an(z(a[2],a[1]));return cT(a[1],c,b)}function
+mZ(a,k,j,r,c){var
+l=g$(k),m=g$(j),g=g$(c[1]),h=g$(c[2]),t=aI(a,l,h),u=bg(aI(a,m,g),t),i=eI(a,_(L(a,b)),u);if(i)var
+f=i[1],n=aI(a,bg(l,g),f),o=aI(a,bg(m,h),f),d=function(c,b){return aI(a,c,_(b))},v=j[3],w=k[3],x=function(b,a){var
+c=d(o,a);return cq(d(n,b),c)},y=function(a){return d(o,a)},z=aL(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return bg(b,d(f,an(a)))[2]},C=function(a){return dT(d(f,an(a)))[2]},p=aL(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return s(a,D,b)},p),F=cT(c[2][1],c[2][2],E),G=Q(h[2]),H=e(function(b){return s(a,G,b)},p),q=[0,[0,cT(c[1][1],c[1][2],H),F]];else
 var
 q=i;return q}function
-je(a,e,d,k){var
-p=eG(a,d),f=cm(eG(a,e),p),g=bf(cm(f,ad(J(a,b))),k),l=aG(a,ad(J(a,c(2,b))),f),q=eG(a,g),h=jd(a,bf(aG(a,ad(J(a,c(2,c(2,b)))),f),q));if(h){var
-m=h[1],r=aG(a,m,d),i=eH(a,cm(aG(a,g,e),r),l);if(i)var
-s=aG(a,m,e),j=eH(a,bf(aG(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
+jq(a,e,d,k){var
+p=eH(a,d),f=cq(eH(a,e),p),g=bg(cq(f,_(L(a,b))),k),l=aI(a,_(L(a,c(2,b))),f),q=eH(a,g),h=jp(a,bg(aI(a,_(L(a,c(2,c(2,b)))),f),q));if(h){var
+m=h[1],r=aI(a,m,d),i=eI(a,cq(aI(a,g,e),r),l);if(i)var
+s=aI(a,m,e),j=eI(a,bg(aI(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
 n=i;var
 o=n}else
 var
 o=h;var
-u=dc(function(b){return mW(a,e,d,k,b)},o);return dc(function(b){return mW(a,e,d,k,b)},u)}function
-cn(d,b,a){if(b){if(a)return as(d,b[1],a[1]);var
+u=de(function(b){return mZ(a,e,d,k,b)},o);return de(function(b){return mZ(a,e,d,k,b)},u)}function
+cr(d,b,a){if(b){if(a)return at(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-b4(b,j,i){var
-f=ad(u);return function(a){switch(a[0]){case
-0:return[0,r(a[1],j,f)];case
-1:return[0,r(a[1],i,f)];case
-2:return[0,ad(J(b,a[1]))];case
+b7(b,j,i){var
+f=_(t);return function(a){switch(a[0]){case
+0:return[0,q(a[1],j,f)];case
+1:return[0,q(a[1],i,f)];case
+2:return[0,_(L(b,a[1]))];case
 3:var
-k=a[2],l=a[1];return cn(function(b,a){return[0,cm(b,a)]},l,k);case
+k=a[2],l=a[1];return cr(function(b,a){return[0,cq(b,a)]},l,k);case
 4:var
-m=a[2],n=a[1];return cn(function(b,a){return[0,bf(b,a)]},n,m);case
+m=a[2],n=a[1];return cr(function(b,a){return[0,bg(b,a)]},n,m);case
 5:var
-o=a[1];return dc(function(a){return[0,dP(a)]},o);case
+o=a[1];return de(function(a){return[0,dT(a)]},o);case
 6:var
-p=a[2],q=a[1];return cn(function(c,a){return[0,aG(b,c,a)]},q,p);case
+p=a[2],r=a[1];return cr(function(c,a){return[0,aI(b,c,a)]},r,p);case
 7:var
-s=a[2],t=a[1];return cn(function(a,c){return eH(b,a,c)},t,s);case
+s=a[2],t=a[1];return cr(function(a,c){return eI(b,a,c)},t,s);case
 8:var
-u=a[1];return dc(function(a){return[0,eG(b,a)]},u);case
+u=a[1];return de(function(a){return[0,eH(b,a)]},u);case
 9:var
-v=a[1];return dc(function(a){return jd(b,a)},v);default:var
+v=a[1];return de(function(a){return jp(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-w=je(b,c[1],d[1],e[1]),y=a[1]?aJ:at;return x(y,w)}var
+w=jq(b,c[1],d[1],e[1]),y=a[1]?aK:as;return x(y,w)}var
 g=e}else
 var
 g=d;var
 h=g}else
 var
 h=c;return h}}}function
-dQ(c){var
+dU(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 0;case
 1:return 1;case
 6:var
 a=a[1];continue;default:var
-b=dQ(a[1]);if(b)return b;var
+b=dU(a[1]);if(b)return b;var
 a=a[2];continue}}function
-co(r,q){var
+cs(r,q){var
 b=r,a=q;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=L(b[1],a[1]);return c?gQ(b[2],a[2]):c}return 0;case
+c=H(b[1],a[1]);return c?gY(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=n(b[1],a[1]),i=h?L(e[1],g[1]):h,j=i?gQ(e[2],g[2]):i,k=j?L(d[1],f[1]):j;return k?gQ(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=m(b[1],a[1]),i=h?H(e[1],g[1]):h,j=i?gY(e[2],g[2]):i,k=j?H(d[1],f[1]):j;return k?gY(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
-l=co(b[1],a[1]);if(l){var
+l=cs(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 3:if(3===a[0]){var
-m=co(b[1],a[1]);if(m){var
-b=b[2],a=a[2];continue}return m}return 0;case
+n=cs(b[1],a[1]);if(n){var
+b=b[2],a=a[2];continue}return n}return 0;case
 4:if(4===a[0]){var
-o=co(b[1],a[1]);if(o){var
+o=cs(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;case
 5:if(5===a[0]){var
-p=co(b[1],a[1]);if(p){var
+p=cs(b[1],a[1]);if(p){var
 b=b[2],a=a[2];continue}return p}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-fA(c,a){switch(a[0]){case
+fF(c,a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return 0;case
 2:var
-m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dL(b,a)]};break;case
+m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dP(b,a)]};break;case
 3:var
-o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,dM(b,a)]};break;case
+o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,dQ(b,a)]};break;case
 4:var
-q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,a_(b,a)]};break;case
+q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,bb(b,a)]};break;case
 5:var
-s=a[2],t=a[1],g=s,f=t,e=function(c,a){return eC(a,[0,d,b])?0:[0,gX(c,a)]};break;default:var
-k=fA(c,a[1]);return k?h(c,k[1]):k}var
-i=fA(c,f);if(i){var
-j=fA(c,g);if(j)return e(i[1],j[1]);var
+s=a[2],t=a[1],g=s,f=t,e=function(c,a){return eE(a,[0,d,b])?0:[0,g5(c,a)]};break;default:var
+k=fF(c,a[1]);return k?h(c,k[1]):k}var
+i=fF(c,f);if(i){var
+j=fF(c,g);if(j)return e(i[1],j[1]);var
 l=j}else
 var
 l=i;return l}function
-uz(a){return 0}function
-cR(a){return fA(uz,a)}function
-b5(a,c){switch(c[0]){case
-0:return[0,mJ(a,c[1],c[2])];case
+uN(a){return 0}function
+cU(a){return fF(uN,a)}function
+b8(a,c){switch(c[0]){case
+0:return[0,mM(a,c[1],c[2])];case
 1:return 0;case
 2:var
-g=b5(a,c[1]);if(g)var
-h=b5(a,c[2]),E=h?[0,A(g[1],h[1])]:h,r=E;else
+g=b8(a,c[1]);if(g)var
+h=b8(a,c[2]),E=h?[0,z(g[1],h[1])]:h,r=E;else
 var
 r=g;return r;case
 3:var
-i=b5(a,c[1]);if(i)var
-j=b5(a,c[2]),F=j?[0,C(i[1],j[1])]:j,s=F;else
+i=b8(a,c[1]);if(i)var
+j=b8(a,c[2]),F=j?[0,B(i[1],j[1])]:j,u=F;else
 var
-s=i;return s;case
+u=i;return u;case
 4:var
-k=b5(a,c[1]);if(k)var
-l=b5(a,c[2]),G=l?[0,t(a,k[1],l[1])]:l,v=G;else
+k=b8(a,c[1]);if(k)var
+l=b8(a,c[2]),G=l?[0,s(a,k[1],l[1])]:l,v=G;else
 var
 v=k;return v;case
 5:var
-m=b5(a,c[1]);if(m){var
-n=b5(a,c[2]);if(n)var
-o=b2(a,n[1]),H=o?[0,t(a,m[1],o[1])]:o,w=H;else
+m=b8(a,c[1]);if(m){var
+n=b8(a,c[2]);if(n)var
+o=bN(a,n[1]),K=o?[0,s(a,m[1],o[1])]:o,w=K;else
 var
 w=n;var
 y=w}else
 var
 y=m;return y;default:var
-z=c[1],p=b5(a,z);if(p){var
-e=p[1];if(K(d,e[1]))return ck(a,e);var
-f=cR(z),J=f?I(bo([0,d,b],f[1])):f;if(J)return 0;if(K(d,e[2])){var
-B=ck(a,[0,e[2],e[2]]);return x(function(a){return[0,d,a[2]]},B)}var
-q=L(e[2],d),D=q?[0,u]:q;return D}return p}}function
-cS(b,a){return mJ(b,a[1],a[2])}function
-mX(a,f,e,d){var
-h=[0,b,c(2,b)],i=[0,cS(a,a_(dM(d,e),h)),0],j=g(ab(u,f),i),k=cS(a,d)[2],l=[0,cS(a,e)[1],k],m=[0,b,c(2,b)];return[0,cS(a,a_(dL(e,d),m)),l,j]}function
-eI(c,e,a){function
-b(a){return eI(c,e,a)}if(dQ(a))switch(a[0]){case
+A=c[1],p=b8(a,A);if(p){var
+e=p[1];if(I(d,e[1]))return cn(a,e);var
+f=cU(A),L=f?J(bp([0,d,b],f[1])):f;if(L)return 0;if(I(d,e[2])){var
+C=cn(a,[0,e[2],e[2]]);return x(function(a){return[0,d,a[2]]},C)}var
+q=H(e[2],d),D=q?[0,t]:q;return D}return p}}function
+cV(b,a){return mM(b,a[1],a[2])}function
+m0(a,f,e,d){var
+h=[0,b,c(2,b)],i=[0,cV(a,bb(dQ(d,e),h)),0],j=g($(t,f),i),k=cV(a,d)[2],l=[0,cV(a,e)[1],k],m=[0,b,c(2,b)];return[0,cV(a,bb(dP(e,d),m)),l,j]}function
+eJ(c,e,a){function
+b(a){return eJ(c,e,a)}if(dU(a))switch(a[0]){case
 0:return 0;case
-1:return fd(e,a[1],a[2],a[3]);case
+1:return fi(e,a[1],a[2],a[3]);case
 2:var
-g=b(a[2]),h=b(a[1]);return cn(function(b,a){return[0,cm(b,a)]},h,g);case
+g=b(a[2]),h=b(a[1]);return cr(function(b,a){return[0,cq(b,a)]},h,g);case
 3:var
-i=b(a[2]),j=b(a[1]);return cn(function(b,a){return[0,bf(b,a)]},j,i);case
+i=b(a[2]),j=b(a[1]);return cr(function(b,a){return[0,bg(b,a)]},j,i);case
 4:var
-f=a[2],d=a[1];if(co(d,f)){var
-k=b(d);return dc(function(a){return[0,eG(c,a)]},k)}var
-l=b(f),m=b(d);return cn(function(b,a){return[0,aG(c,b,a)]},m,l);case
+f=a[2],d=a[1];if(cs(d,f)){var
+k=b(d);return de(function(a){return[0,eH(c,a)]},k)}var
+l=b(f),m=b(d);return cr(function(b,a){return[0,aI(c,b,a)]},m,l);case
 5:var
-n=b(a[2]),o=b(a[1]);return cn(function(a,b){return eH(c,a,b)},o,n);default:var
-p=b(a[1]);return dc(function(a){return jd(c,a)},p)}return x(ad,b5(c,a))}function
-aC(b,a){if(dQ(a)){var
-c=eI(b,function(d,c,a){var
-e=aF(d,dR),f=e?bo(c,a):e,g=f?[0,mX(b,d,c,a)]:f;return g},a);return x(function(a){return a[2]},c)}return b5(b,a)}function
-jf(a){var
-e=bv(R(a),d);return eA(G(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
-mY(a){return i5(G(jf(a),a))}function
-mZ(b,a){var
-c=mY(b),d=R(c9(R(a[2]),c)),e=mY(b);return[0,c9(a[1],e),d]}function
-dd(c,a,b){var
-d=aC(G(c,jf(a)),b);return x(function(b){return mZ(a,b)},d)}function
-ar(d,a){var
-b=dd(d,a[2],a[1][1]);if(b)var
-c=dd(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+n=b(a[2]),o=b(a[1]);return cr(function(a,b){return eI(c,a,b)},o,n);default:var
+p=b(a[1]);return de(function(a){return jp(c,a)},p)}return x(_,b8(c,a))}function
+aD(b,a){if(dU(a)){var
+c=eJ(b,function(d,c,a){var
+e=aF(d,dV),f=e?bp(c,a):e,g=f?[0,m0(b,d,c,a)]:f;return g},a);return x(function(a){return a[2]},c)}return b8(b,a)}function
+jr(a){var
+e=bw(U(a),d);return eC(G(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
+m1(a){return jg(G(jr(a),a))}function
+m2(b,a){var
+c=m1(b),d=U(da(U(a[2]),c)),e=m1(b);return[0,da(a[1],e),d]}function
+df(c,a,b){var
+d=aD(G(c,jr(a)),b);return x(function(b){return m2(a,b)},d)}function
+au(d,a){var
+b=df(d,a[2],a[1][1]);if(b)var
+c=df(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-m0(b,a){var
-c=R(c9(R(a[2]),b));return[0,c9(a[1],b),c]}function
-g3(b,a){var
-c=gY(b[2],a);return[0,cK(b[1],a),c]}function
-m1(h,g,d,b){var
-e=b[2],f=mu(d),i=c(2,f),j=D(mq(f),i),a=g3(t(h,b[1],g),j),k=mo(d)?C(e,a):A(e,a);return[0,a,k]}function
-m2(a,d,c){if(c){var
-e=c[1];return m1(a,d,e,m2(a,d,e))}var
-f=J(a,b);return[0,J(a,b),f]}function
-m3(e,g){var
-o=cM(e),p=D(c(2,c(2,b)),o),j=F(g[2],p);if(j){var
-n=fw(e),i=uA[1],d=n,f=0,a=i;for(;;){if(d){var
+m3(b,a){var
+c=U(da(U(a[2]),b));return[0,da(a[1],b),c]}function
+ha(b,a){var
+c=g6(b[2],a);return[0,cO(b[1],a),c]}function
+m4(h,g,d,b){var
+e=b[2],f=mx(d),i=c(2,f),j=E(mt(f),i),a=ha(s(h,b[1],g),j),k=mr(d)?B(e,a):z(e,a);return[0,a,k]}function
+m5(a,d,c){if(c){var
+e=c[1];return m4(a,d,e,m5(a,d,e))}var
+f=L(a,b);return[0,L(a,b),f]}function
+m6(e,g){var
+o=cQ(e),p=E(c(2,c(2,b)),o),j=D(g[2],p);if(j){var
+n=fB(e),i=uO[1],d=n,f=0,a=i;for(;;){if(d){var
 h=d[1];if(a){var
 d=h,a=a[1];continue}var
 d=h,f=[0,f],a=i;continue}var
-k=N(mn(uD,N(uB,f)),uC),l=m2(e,g,k),q=m1(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
+k=O(mq(uR,O(uP,f)),uQ),l=m5(e,g,k),q=m4(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
 var
 m=j;return m}function
-m4(i){function
+m7(i){function
 a(h){var
-m=cK(cM(i),h),g=fw(i),f=m,e=d,a=b;for(;;){if(g){var
-j=G(a,c(2,b)),k=G(e,cK(f,a)),l=R(cK(f,D(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(q(c(2,q(c(2,q(c(2,q(c(2,c(2,q(c(2,q(c(2,b)))))))))))))),f=D(c(2,c(2,b)),e),g=a(q(c(2,c(2,b))));return aR(D(c(2,c(2,c(2,c(2,b)))),g),f)}function
-m5(e,a){var
-f=F(d,a);if(f){var
-g=c(2,c(2,b));return m3(e,g3(S(e,[0,a,a]),g))}return f}function
-m6(a){var
-m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aR(m4(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=G(m4(a),n),e=m5(a,g);if(e){var
-f=m5(a,h);if(f)var
-i=K(d,e[1][1]),j=i?K(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
+m=cO(cQ(i),h),g=fB(i),f=m,e=d,a=b;for(;;){if(g){var
+j=G(a,c(2,b)),k=G(e,cO(f,a)),l=U(cO(f,E(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(r(c(2,r(c(2,r(c(2,r(c(2,c(2,r(c(2,r(c(2,b)))))))))))))),f=E(c(2,c(2,b)),e),g=a(r(c(2,c(2,b))));return aT(E(c(2,c(2,c(2,c(2,b)))),g),f)}function
+m8(e,a){var
+f=D(d,a);if(f){var
+g=c(2,c(2,b));return m6(e,ha(P(e,[0,a,a]),g))}return f}function
+m9(a){var
+m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aT(m7(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=G(m7(a),n),e=m8(a,g);if(e){var
+f=m8(a,h);if(f)var
+i=I(d,e[1][1]),j=i?I(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
-m7(a,d){var
-c=S(a,d),e=J(a,b);return C(A(c,c),e)}function
-de(f,j){var
-e=aC(G(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
-k=e[1],a=G(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=m6(a);if(d)var
-h=c(2,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))))),i=m3(a,S(a,g3(t(a,k,d[1]),h))),g=x(function(b){return m7(a,m7(a,b))},i);else
+m_(a,d){var
+c=P(a,d),e=L(a,b);return B(z(c,c),e)}function
+dg(f,j){var
+e=aD(G(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
+k=e[1],a=G(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=m9(a);if(d)var
+h=c(2,c(2,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))))),i=m6(a,P(a,ha(s(a,k,d[1]),h))),g=x(function(b){return m_(a,m_(a,b))},i);else
 var
 g=d;var
-l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return x(function(a){return m0(l,a)},g)}return e}function
-jg(a,d){var
-e=m6(G(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return x(function(e){var
-f=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))));return g3(t(a,d,m0(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
-g4(d,a){return de(d,[3,a,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])}function
+l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return x(function(a){return m3(l,a)},g)}return e}function
+js(a,d){var
+e=m9(G(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return x(function(e){var
+f=c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))));return ha(s(a,d,m3(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
+hb(d,a){return dg(d,[3,a,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b]])}function
 i(i,e,c){var
-f=cR(c);if(f){var
-g=f[1];return e?I(bo(g,[0,d,b])):bo([0,d,b],g)}var
-a=aC(i,c);if(a){var
-h=a[1];return e?K(d,h[1]):F(d,h[1])}return a}function
-m8(c,b){var
-a=aC(c,b),d=a?1:a;return d}function
-bE(c,a,b){var
-d=co(a,b),e=d?m8(c,a):d;return e?e:i(c,0,[3,b,a])}function
-uE(c){var
-a=dN(c),g=eA(gV(a[2])),b=[0,gV(a[1]),g],e=K(d,a[1]),f=e?eC(a_(b,b),c):e,h=f?[0,b]:f;return h}function
-m9(a){if(a){var
-e=a[2],c=a[1];if(eC(bK([0,d,b],c),[0,d,b])){var
-g=m9(e);return x(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
+f=cU(c);if(f){var
+g=f[1];return e?J(bp(g,[0,d,b])):bp([0,d,b],g)}var
+a=aD(i,c);if(a){var
+h=a[1];return e?I(d,h[1]):D(d,h[1])}return a}function
+m$(c,b){var
+a=aD(c,b),d=a?1:a;return d}function
+bH(c,a,b){var
+d=cs(a,b),e=d?m$(c,a):d;return e?e:i(c,0,[3,b,a])}function
+uS(c){var
+a=dR(c),g=eC(g3(a[2])),b=[0,g3(a[1]),g],e=I(d,a[1]),f=e?eE(bb(b,b),c):e,h=f?[0,b]:f;return h}function
+na(a){if(a){var
+e=a[2],c=a[1];if(eE(bG([0,d,b],c),[0,d,b])){var
+g=na(e);return x(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
 f=[0,[0,c,e]]}else
 var
 f=a;return f}function
-m_(c,a){var
-e=V(c,a),f=[0,d,b];return aq(function(a,b){return dN(dL(a_(a[1],a[2]),b))},f,e)}function
-m$(c,j){if(c){var
-f=c[1],g=m9(j);if(g){var
+nb(c,a){var
+e=N(c,a),f=[0,d,b];return am(function(a,b){return dR(dP(bb(a[1],a[2]),b))},f,e)}function
+nc(c,j){if(c){var
+f=c[1],g=na(j);if(g){var
 h=g[1],a=h[1],k=function(c){var
-f=bK([0,d,b],a),g=gX(bK([0,d,b],c),f),h=bC(a),i=V(bC(c),h);return e(function(a){var
-b=a_(g,a[2]);return dN(dM(a[1],b))},i)},l=m$(f,e(k,h[2]));return x(function(c){var
-e=bK([0,d,b],a);return[0,dN(gX(gW(m_(bC(a),c)),e)),c]},l)}var
-i=[0,[0,[0,b,b],ab([0,d,b],f)]]}else
+f=bG([0,d,b],a),g=g5(bG([0,d,b],c),f),h=bx(a),i=N(bx(c),h);return e(function(a){var
+b=bb(g,a[2]);return dR(dQ(a[1],b))},i)},l=nc(f,e(k,h[2]));return x(function(c){var
+e=bG([0,d,b],a);return[0,dR(g5(g4(nb(bx(a),c)),e)),c]},l)}var
+i=[0,[0,[0,b,b],$([0,d,b],f)]]}else
 var
 i=c;return i}function
-na(a){if(a){var
-b=fA(uE,a[1]);if(b)var
-c=na(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+nd(a){if(a){var
+b=fF(uS,a[1]);if(b)var
+c=nd(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return uF}function
-nb(a){if(a){var
-b=na(a[1]);if(b)var
-c=nb(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+d=b;return d}return uT}function
+ne(a){if(a){var
+b=nd(a[1]);if(b)var
+c=ne(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return uG}function
-nc(i,m){var
-a=nb(m);if(a){var
-j=a[1],c=m$(i,j);if(c){var
-e=c[1],g=n(f(e),i),h=g?aj(function(a){return I(eC(a,[0,d,b]))},e):g;return h?l(function(a){return eC(m_(a,e),[0,d,b])},j):h}var
+d=b;return d}return uU}function
+nf(i,n){var
+a=ne(n);if(a){var
+j=a[1],c=nc(i,j);if(c){var
+e=c[1],g=m(f(e),i),h=g?ag(function(a){return J(eE(a,[0,d,b]))},e):g;return h?l(function(a){return eE(nb(a,e),[0,d,b])},j):h}var
 k=c}else
 var
 k=a;return k}function
-uH(a){return a}function
-uI(a){return a}function
-uJ(a,b){return aU(uI,uH,A,a,b)}function
-uK(a){return a}function
-uL(a){return a}function
-a$(a,b){return aU(uL,uK,uJ,a,b)}function
-jh(a,f,c,d){if(c){var
-h=c[2],i=J(a,b),g=eE(c[1],i,f);if(d){var
-j=jh(a,f,h,d[2]),k=d[1],l=function(c,b){return C(c,t(a,g,b))},m=function(b){return $(t(a,g,b))};return[0,aU(function(a){return a},m,l,k,c),j]}var
-n=jh(a,f,h,0);return[0,e(function(b){return $(t(a,g,b))},c),n]}return d}function
-g5(h,a){if(a){var
+uV(a){return a}function
+uW(a){return a}function
+uX(a,b){return aL(uW,uV,z,a,b)}function
+uY(a){return a}function
+uZ(a){return a}function
+aV(a,b){return aL(uZ,uY,uX,a,b)}function
+jt(a,f,c,d){if(c){var
+h=c[2],i=L(a,b),g=co(c[1],i,f);if(d){var
+j=jt(a,f,h,d[2]),k=d[1],l=function(c,b){return B(c,s(a,g,b))},m=function(b){return Q(s(a,g,b))};return[0,aL(function(a){return a},m,l,k,c),j]}var
+n=jt(a,f,h,0);return[0,e(function(b){return Q(s(a,g,b))},c),n]}return d}function
+fG(h,a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=K(d,c[1]),i=e?[0,jh(h,c,b[2],a[2])]:e,f=i;else
+c=b[1],e=I(d,c[1]),i=e?[0,jt(h,c,b[2],a[2])]:e,f=i;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-nd(g,f,e){var
+ng(g,f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=g5(g,b);if(c){var
+c=fG(g,b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-ne(d,b,a){if(b)if(a)var
-e=a[1],f=ne(d,b[2],a[2]),g=cI(d,b[1])?cl(e):cN(e),c=[0,g,f];else
+nh(d,b,a){if(b)if(a)var
+e=a[1],f=nh(d,b[2],a[2]),g=cM(d,b[1])?bA(e):b5(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-nf(a,b){if(a)if(b)var
-d=nf(a[2],b[2]),c=[0,ne(a[1],a,b[1]),d];else
+ni(a,b){if(a)if(b)var
+d=ni(a[2],b[2]),c=[0,nh(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-ba(a){if(a){var
-b=a[1],c=ba(b),d=e(function(a){return[0,1,a]},c),f=ba(b);return g(e(function(a){return[0,0,a]},f),d)}return uM}function
-eJ(c,a){var
-b=f(a);if(nd(c,b,a))return 1;var
-d=ba(aT(b));return l(function(d){return nd(c,b,nf([0,0,d],a))},d)}function
-az(a){function
+a9(a){if(a){var
+b=a[1],c=a9(b),d=e(function(a){return[0,1,a]},c),f=a9(b);return g(e(function(a){return[0,0,a]},f),d)}return u0}function
+eK(c,a){var
+b=f(a);if(ng(c,b,a))return 1;var
+d=a9(aU(b));return l(function(d){return ng(c,b,ni([0,0,d],a))},d)}function
+aB(a){function
 b(b){var
 c=h(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
-aH(h,e){var
+av(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?A(a,d):C(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-ji(c,b,a){var
-d=ba(c);return l(function(c){return h(a,h(az(function(a){return aH(c,a)}),b))},d)}function
-jj(h,d,c){if(d)if(c)var
-i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aS(c,G(h,b),a)},k=jj(h,j,i),l=function(c,b){var
-d=a(b,e);return A(a(f,c),d)},m=function(b){return a(b,e)},n=aU(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,A(a(f,e),o),n],k];else
+d=b[1],f=b[2],g=c[1]?z(a,d):B(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+ju(c,b,a){var
+d=a9(c);return l(function(c){return h(a,h(aB(function(a){return av(c,a)}),b))},d)}function
+hc(h,d,c){if(d)if(c)var
+i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aH(c,G(h,b),a)},k=hc(h,j,i),l=function(c,b){var
+d=a(b,e);return z(a(f,c),d)},m=function(b){return a(b,e)},n=aL(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,z(a(f,e),o),n],k];else
 var
 g=c;else
 var
 g=d;return g}function
-eK(b,d,a,c){function
+dh(b,d,a,c){function
 e(c,d){var
-e=aS(d,b,a);return C(A(c,c),e)}function
-f(c){return $(aS(c,b,a))}return aU(function(a){return A(a,a)},f,e,d,c)}function
-g6(d,i,h,g){var
+e=aH(d,b,a);return B(z(c,c),e)}function
+f(c){return Q(aH(c,b,a))}return aL(function(a){return z(a,a)},f,e,d,c)}function
+hd(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=cN(e[2]),k=a$(a,jj(d,f,eK(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-jk(b,a){return[0,[0,0,b],a]}function
-fB(i,b,c,h,g,a){function
+e=b[1],f=c[1],j=b5(e[2]),k=aV(a,hc(d,f,dh(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+jv(b,a){return[0,[0,0,b],a]}function
+fH(i,b,c,h,g,a){function
 d(a){if(a){var
-j=ab([0,$(a[1][2]),0],b),c=g6(h,g,a[2],j),d=n(f(c),b);if(d)return eJ(i,c);var
+j=$([0,Q(a[1][2]),0],b),c=hd(h,g,a[2],j),d=m(f(c),b);if(d)return eK(i,c);var
 e=d}else
 var
-e=a;return e}return ji(b,jk(c,a),d)}function
-g7(g,f,e){var
+e=a;return e}return ju(b,jv(c,a),d)}function
+he(g,f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],h=d[1],c=g5(g,[0,[0,cl(d[2]),h],b]);if(c){var
+d=a[1],h=d[1],c=fG(g,[0,[0,bA(d[2]),h],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-jl(d,b,c,a){function
+jw(d,b,c,a){function
 e(a){if(a){var
-j=ab([0,a[1][2],0],b),c=g7(d,a[2],j);if(c){var
-e=c[1],g=n(f(e),b);if(g)return eJ(d,e);var
+j=$([0,a[1][2],0],b),c=he(d,a[2],j);if(c){var
+e=c[1],g=m(f(e),b);if(g)return eK(d,e);var
 h=g}else
 var
 h=c;var
 i=h}else
 var
-i=a;return i}return ji(b,jk(c,a),e)}function
-ng(h,g,a,f,d,c){var
-i=[0,u,u,0],b=e(function(a){return[0,a[1],i]},c),j=a?a[1]:[0,u,u,0];return fB(h,g,j,f,d,b)}function
-jm(b,a){var
-c=ba(b);return l(function(b){return K(d,aH(b,a)[1])},c)}function
-g8(c,b,a){var
-d=a[3],f=e(function(a){return aS(c,b,a)},d),g=a[2];return[0,aS(c,b,a[1]),g,f]}function
-nh(a,b){var
-c=b[3],d=a[3],e=aU(function(a){return a},$,C,d,c),f=a[2];return[0,C(a[1],b[1]),f,e]}function
-bM(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-af(c,b,a){var
-d=as(c,b[3],a[3]),e=as(c,b[2],a[2]);return[0,as(c,b[1],a[1]),e,d]}function
-a8(b,a){var
-c=s(b,a[3]),d=s(b,a[2]);return[0,s(b,a[1]),d,c]}function
-bp(b,a){var
-c=ai(b[3],a),d=ai(b[2],a);return[0,ai(b[1],a),d,c]}function
-aa(b,a){var
-c=s(b[3],a[3]),d=s(b[2],a[2]);return B(B(s(b[1],a[1]),d),c)}function
-dS(a){return bp(a,aM(aa(a,a)))}function
-df(a){var
-b=a[5];return b?b[1]:aM(a[2])}function
-g9(b,a){return b?a:bx(a)}function
-ni(e,a,i,d,h){var
-f=aa(a,e),b=af(z,e,a8(f,a)),j=aa(b,b),g=z(W(d),j),c=g9(h,aM(g)),k=z(f,c),l=af(B,a,bp(b,c));return[0,af(B,b,a8(c,a)),g,l,k,[0,d],0,[0,i]]}function
-nj(a,e,d){var
-b=aa(a,a),c=aM(b),f=[0,e],g=x(function(b){return af(z,a,a8(aa(b,a),b))},d);return[0,a,b,bp(a,c),c,0,g,f]}function
-nk(c,a){var
-d=aa(a,c);return[0,a,m(b),a,d,0,0,0]}function
-fC(a){return e(function(a){var
-b=a[2];return[0,bM(a[1]),b]},a)}function
-nl(a){return e(function(a){var
-c=m(b);return[0,bM(a[3]),c]},a)}function
-nm(b,a){var
+i=a;return i}return ju(b,jv(c,a),e)}function
+nj(h,g,a,f,d,c){var
+i=[0,t,t,0],b=e(function(a){return[0,a[1],i]},c),j=a?a[1]:[0,t,t,0];return fH(h,g,j,f,d,b)}function
+hf(b,a){var
+c=a9(b);return l(function(b){return I(d,av(b,a)[1])},c)}function
+fI(c,b,a){var
+d=a[3],f=e(function(a){return aH(c,b,a)},d),g=a[2];return[0,aH(c,b,a[1]),g,f]}function
+jx(a,b){var
+c=b[3],d=a[3];function
+e(a){return a}var
+f=aL(function(a){return a},e,z,d,c),g=a[2];return[0,z(a[1],b[1]),g,f]}function
+nk(a,b){var
+c=b[3],d=a[3],e=aL(function(a){return a},Q,B,d,c),f=a[2];return[0,B(a[1],b[1]),f,e]}function
+bP(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+ah(c,b,a){var
+d=at(c,b[3],a[3]),e=at(c,b[2],a[2]);return[0,at(c,b[1],a[1]),e,d]}function
+a_(b,a){var
+c=u(b,a[3]),d=u(b,a[2]);return[0,u(b,a[1]),d,c]}function
+bq(b,a){var
+c=aj(b[3],a),d=aj(b[2],a);return[0,aj(b[1],a),d,c]}function
+ac(b,a){var
+c=u(b[3],a[3]),d=u(b[2],a[2]);return C(C(u(b[1],a[1]),d),c)}function
+dW(a){return bq(a,aO(ac(a,a)))}function
+di(a){var
+b=a[5];return b?b[1]:aO(a[2])}function
+hg(b,a){return b?a:bB(a)}function
+nl(e,a,i,d,h){var
+f=ac(a,e),b=ah(A,e,a_(f,a)),j=ac(b,b),g=A(X(d),j),c=hg(h,aO(g)),k=A(f,c),l=ah(C,a,bq(b,c));return[0,ah(C,b,a_(c,a)),g,l,k,[0,d],0,[0,i]]}function
+nm(a,e,d){var
+b=ac(a,a),c=aO(b),f=[0,e],g=x(function(b){return ah(A,a,a_(ac(b,a),b))},d);return[0,a,b,bq(a,c),c,0,g,f]}function
+nn(c,a){var
+d=ac(a,c);return[0,a,n(b),a,d,0,0,0]}function
+fJ(a){return e(function(a){var
+b=a[2];return[0,bP(a[1]),b]},a)}function
+no(a){return e(function(a){var
+c=n(b);return[0,bP(a[3]),c]},a)}function
+np(b,a){var
 c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]}function
-nn(c,b,a){var
-d=as(c,b[3],a[3]),e=as(c,b[2],a[2]);return[0,as(c,b[1],a[1]),e,d]}function
+nq(c,b,a){var
+d=at(c,b[3],a[3]),e=at(c,b[2],a[2]);return[0,at(c,b[1],a[1]),e,d]}function
 eL(d,a){var
-b=ck(d,[0,a[2],a[2]]);if(b){var
+b=cn(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-g_(a,n,f,m,e,k,j){var
-o=nn(bf,k,j),b=nn(function(b,c){return aG(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=cm(cm(cm(ad(J(a,d)),h),g),c),p=ba(n);return l(function(c){var
-b=nm(function(b){return S(a,aH(c,b))},e),h=b[3],j=b[2],k=b[1],l=t(a,m,eL(a,A(A(A(J(a,d),k),j),h))),g=C(aH(c,i),l),n=f?C(g,aH(c,f[1])):g;return K(d,n[1])},p)}function
-cp(a){return dK(G(a[1],a[2]),b)}function
+hh(a,n,f,m,e,k,j){var
+o=nq(bg,k,j),b=nq(function(b,c){return aI(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=cq(cq(cq(_(L(a,d)),h),g),c),p=a9(n);return l(function(c){var
+b=np(function(b){return P(a,av(c,b))},e),h=b[3],j=b[2],k=b[1],l=s(a,m,eL(a,z(z(z(L(a,d),k),j),h))),g=B(av(c,i),l),n=f?B(g,av(c,f[1])):g;return I(d,n[1])},p)}function
+ct(a){return dO(G(a[1],a[2]),b)}function
 eM(a){var
-b=cp(a);return aR(a[2],b)}function
-dU(c,b){if(b)var
-a=b[1],e=dU([0,c],b[2]),f=eM(a),h=[0,[0,eM(a),f],0],i=g(ab(u,c),h),j=cp(a),d=[0,[0,[0,cp(a),j],a,i],e];else
+b=ct(a);return aT(a[2],b)}function
+dj(c,b){if(b)var
+a=b[1],e=dj([0,c],b[2]),f=eM(a),h=[0,[0,eM(a),f],0],i=g($(t,c),h),j=ct(a),d=[0,[0,[0,ct(a),j],a,i],e];else
 var
 d=b;return d}function
-dg(d,b){if(b){var
+dk(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=dg(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,cp(a),f],c],h=cp(a);return[0,[0,[0,a[1],h],c],g]}return uN}function
-no(d,c,a){if(c){if(a){var
-e=no(d,c[2],a[2]);return A(aS(c[1],G(d,b),a[1]),e)}return u}return u}function
-dV(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return no(f,a,b)},j=dV(f,h),k=e(function(a){var
-e=b(d,a[2]);return A(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,A(b(d,c),l),k],j];else
+e=dk(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,ct(a),f],c],h=ct(a);return[0,[0,[0,a[1],h],c],g]}return u1}function
+nr(d,c,a){if(c){if(a){var
+e=nr(d,c[2],a[2]);return z(aH(c[1],G(d,b),a[1]),e)}return t}return t}function
+dY(f,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return nr(f,a,b)},j=dY(f,h),k=e(function(a){var
+e=b(d,a[2]);return z(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,z(b(d,c),l),k],j];else
 var
 i=a;return i}function
-dW(e,b,d,a){if(b)if(a)var
-f=b[1],g=dW(e,b[2],d,a[2]),c=[0,[0,f,eK(e,a[1][1],d,f)],g];else
+dZ(e,b,d,a){if(b)if(a)var
+f=b[1],g=dZ(e,b[2],d,a[2]),c=[0,[0,f,dh(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-g$(f,d,c,b,a){if(a){var
+hi(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=g$(f,d[1],c,b,g);return[0,[0,C(u,b),0],i]}var
-j=e(function(a){return[0,C(u,b),0]},g),h=[0,[0,C($(t(f,c,cN(a[1][2]))),b),0],j]}else
+i=hi(f,d[1],c,b,g);return[0,[0,B(t,b),0],i]}var
+j=e(function(a){return[0,B(t,b),0]},g),h=[0,[0,B(Q(s(f,c,b5(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-a1(d,c,a){var
-b=n(f(a),c);return b?eJ(d,a):b}function
-ha(d,b,a){if(b)var
-c=b[1],f=ha([0,d],b[2],a),h=g(ab(u,d),[0,a,0]),e=[0,[0,c,[0,aR(c[1],a[2]),G(c[2],a[2])],h],f];else
+aX(d,c,a){var
+b=m(f(a),c);return b?eK(d,a):b}function
+hj(d,b,a){if(b)var
+c=b[1],f=hj([0,d],b[2],a),h=g($(t,d),[0,a,0]),e=[0,[0,c,[0,aT(c[1],a[2]),G(c[2],a[2])],h],f];else
 var
 e=b;return e}function
-np(d){if(d){var
+ns(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=np(d[2]);return x(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=ns(d[2]);return x(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return uO}function
-nq(d,c,b,a){return cN(bD(function(e,a){var
-b=bL(aH(c,a[2]));return A(e,t(d,a[1],[0,b,b]))},a,b))}function
-nr(b,c,a){return c?ay(b,a):ao(b,a)}function
-ns(b,i,h,a){return eL(b,aq(function(k,j){var
+f=a;return f}return u2}function
+nt(d,c,b,a){return b5(by(function(e,a){var
+b=bO(av(c,a[2]));return z(e,s(d,a[1],[0,b,b]))},a,b))}function
+nu(b,c,a){return c?az(b,a):aq(b,a)}function
+nv(b,i,h,a){return eL(b,am(function(k,j){var
 p=e(function(b){var
-a=aB(0,i);return e(function(a){return bL(r(a,b[3],u))},a)},k);function
+a=aA(0,i);return e(function(a){return bO(q(a,b[3],t))},a)},k);function
 a(n,m){var
-o=nr(h,n,p),g=e(function(a){return nr(h,m,a)},o);function
-a(a){return aq(bv,d,a)}var
+o=nu(h,n,p),g=e(function(a){return nu(h,m,a)},o);function
+a(a){return am(bw,d,a)}var
 i=0;function
 j(a){return a}function
 k(a){return a}var
-c=a(aq(function(a,b){return aU(k,j,my,a,b)},i,g)),l=[0,c,c],f=a(e(function(a){return aq(my,d,a)},g));return eL(b,t(b,[0,f,f],l))}var
-c=a(1,1),f=a(1,0),g=a(0,1);return A(j,S(b,A(A(A(a(0,0),g),f),c)))},u,a))}function
-nt(d,a,g,f){var
-h=aB(0,d);return e(function(d){var
-e=g?ae(a,d):aF(d,a);return e?b:cj(c(2,b),f)},h)}function
-nu(b,a){var
-c=V(b,a);return e(function(a){return aS(a[1],d,a[2])},c)}function
-nv(c,b,a){var
-d=[0,[0,a,0],0],f=V(c,b);return g(e(function(a){return g(a[1],[0,a[2],0])},f),d)}function
-nw(g,e){var
+c=a(am(function(a,b){return aL(k,j,mB,a,b)},i,g)),l=[0,c,c],f=a(e(function(a){return am(mB,d,a)},g));return eL(b,s(b,[0,f,f],l))}var
+c=a(1,1),f=a(1,0),g=a(0,1);return z(j,P(b,z(z(z(a(0,0),g),f),c)))},t,a))}function
+nw(d,a,g,f){var
+h=aA(0,d);return e(function(d){var
+e=g?ae(a,d):aF(d,a);return e?b:cm(c(2,b),f)},h)}function
+nx(b,a){var
+c=N(b,a);return e(function(a){return aH(a[1],d,a[2])},c)}function
+ny(c,b,a){var
+d=[0,[0,a,0],0],f=N(c,b);return g(e(function(a){return g(a[1],[0,a[2],0])},f),d)}function
+nz(g,e){var
 a=g,b=e;for(;;){if(b){if(a){var
-c=n(f(b[1]),a);if(c){var
+c=m(f(b[1]),a);if(c){var
 a=a[1],b=b[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-nx(b,a){var
-c=V(b,a);return e(function(a){return a[1]?$(a[2]):a[2]},c)}function
-ny(a,f,b,d,c){var
-h=ha(a,ab(u,dJ(f,a)),c),i=g(e(ad,ay(a,b)),h);return g(ha(0,ao(a,b),d),i)}function
-nz(a,e,c){var
-f=t(a,e,c);return K(d,C(J(a,b),f)[1])}function
-eN(a){return x(function(a){return x(dP,a)},a)}function
-bq(c,b,a){function
-d(a){return aG(c,b,a)}return x(function(a){return x(d,a)},a)}function
-dX(c,b,a){function
-d(a){return eH(c,a,b)}return x(function(a){return dc(d,a)},a)}function
-br(b,a){if(b){if(a){var
-c=a[1],d=b[1];return[0,cn(function(b,a){return[0,cm(b,a)]},d,c)]}return b}return a}function
+nA(b,a){var
+c=N(b,a);return e(function(a){return a[1]?Q(a[2]):a[2]},c)}function
+nB(a,f,b,d,c){var
+h=hj(a,$(t,dN(f,a)),c),i=g(e(_,az(a,b)),h);return g(hj(0,aq(a,b),d),i)}function
+nC(a,e,c){var
+f=s(a,e,c);return I(d,B(L(a,b),f)[1])}function
+eN(a){return x(function(a){return x(dT,a)},a)}function
+br(c,b,a){function
+d(a){return aI(c,b,a)}return x(function(a){return x(d,a)},a)}function
+d0(c,b,a){function
+d(a){return eI(c,a,b)}return x(function(a){return de(d,a)},a)}function
+bs(b,a){if(b){if(a){var
+c=a[1],d=b[1];return[0,cr(function(b,a){return[0,cq(b,a)]},d,c)]}return b}return a}function
 eO(b,a){var
-c=V(b,a);return e(function(a){return br(a[1],a[2])},c)}function
-dh(a){return ad(J(a,c(2,b)))}function
-jn(a,av,au,L,c){var
-aw=b3(at,c),f=h(b4(a,av,au),aw);switch(c[0]){case
+c=N(b,a);return e(function(a){return bs(a[1],a[2])},c)}function
+dl(a){return _(L(a,c(2,b)))}function
+jy(a,av,au,K,c){var
+aw=b6(as,c),f=h(b7(a,av,au),aw);switch(c[0]){case
 1:var
 O=c[1],d=e(function(d){var
-c=n(O,d),e=c?[0,[0,ad(J(a,b))]]:c;return e},L);break;case
+c=m(O,d),e=c?[0,[0,_(L(a,b))]]:c;return e},K);break;case
 3:var
 d=eO(c[1][2],c[2][2]);break;case
 4:var
@@ -2008,32 +2012,32 @@ d=e(eN,c[1][2]);break;case
 6:var
 x=c[2],y=c[1],g=y[1],u=0;if(g){var
 i=x[1];if(i)var
-Q=x[2],R=g[1],S=e(function(b){return bq(a,R,b)},Q),T=y[2],U=i[1],d=eO(e(function(b){return bq(a,U,b)},T),S);else{var
+Q=x[2],R=g[1],S=e(function(b){return br(a,R,b)},Q),T=y[2],U=i[1],d=eO(e(function(b){return br(a,U,b)},T),S);else{var
 z=i;u=1}}else{var
 z=g;u=1}if(u)var
 d=z;break;case
 7:var
 v=0;if(f){var
 A=c[2],j=A[1];if(j)var
-V=A[2],W=dP(f[1]),X=e(function(b){return bq(a,W,b)},V),Y=eO(c[1][2],X),Z=j[1],d=e(function(b){return dX(a,Z,b)},Y);else{var
+V=A[2],W=dT(f[1]),X=e(function(b){return br(a,W,b)},V),Y=eO(c[1][2],X),Z=j[1],d=e(function(b){return d0(a,Z,b)},Y);else{var
 B=j;v=1}}else{var
 B=f;v=1}if(v)var
 d=B;break;case
 8:var
 C=c[1],k=C[1];if(k)var
-_=C[2],$=k[1],aa=aG(a,dh(a),$),d=e(function(b){return bq(a,aa,b)},_);else
+$=C[2],aa=k[1],ab=aI(a,dl(a),aa),d=e(function(b){return br(a,ab,b)},$);else
 var
 d=k;break;case
 9:if(f)var
-ab=c[1][2],ac=f[1],ae=aG(a,dh(a),ac),d=e(function(b){return dX(a,ae,b)},ab);else
+ac=c[1][2],ad=f[1],ae=aI(a,dl(a),ad),d=e(function(b){return d0(a,ae,b)},ac);else
 var
 d=f;break;case
 10:var
 D=c[4],E=c[3],F=c[2],l=F[1],w=0;if(l){var
-m=l[1],o=E[1],M=0;if(o){var
+n=l[1],o=E[1],M=0;if(o){var
 p=o[1],q=D[1],N=0;if(q){var
-r=je(a,m,p,q[1]);if(r){var
-G=r[1],s=G[2],t=G[1],af=E[2],ag=bf(p,s),ah=e(function(b){return bq(a,ag,b)},af),ai=F[2],aj=bf(m,t),ak=eO(e(function(b){return bq(a,aj,b)},ai),ah),al=e(eN,D[2]),am=dh(a),an=eO(e(function(b){return bq(a,am,b)},ak),al),ao=c[1]?t:dP(s),ap=e(function(b){return bq(a,ao,b)},an),aq=aG(a,m,s),ar=bf(aG(a,p,t),aq),as=aG(a,dh(a),ar),d=e(function(b){return dX(a,as,b)},ap);M=1;N=1}else
+r=jq(a,n,p,q[1]);if(r){var
+G=r[1],s=G[2],t=G[1],af=E[2],ag=bg(p,s),ah=e(function(b){return br(a,ag,b)},af),ai=F[2],aj=bg(n,t),ak=eO(e(function(b){return br(a,aj,b)},ai),ah),al=e(eN,D[2]),am=dl(a),an=eO(e(function(b){return br(a,am,b)},ak),al),ao=c[1]?t:dT(s),ap=e(function(b){return br(a,ao,b)},an),aq=aI(a,n,s),ar=bg(aI(a,p,t),aq),at=aI(a,dl(a),ar),d=e(function(b){return d0(a,at,b)},ap);M=1;N=1}else
 var
 H=r}else
 var
@@ -2041,91 +2045,90 @@ H=q;if(!N)var
 I=H}else
 var
 I=o;if(!M){var
-K=I;w=1}}else{var
-K=l;w=1}if(w)var
-d=K;break;default:var
-d=e(function(a){return 0},L)}return[0,f,d]}function
-jo(b,c,a){if(a)var
-f=a[1],g=jo(b,c,a[2]),d=[0,e(function(a){return $(t(b,t(b,c,f),a))},a),g];else
+J=I;w=1}}else{var
+J=l;w=1}if(w)var
+d=J;break;default:var
+d=e(function(a){return 0},K)}return[0,f,d]}function
+fK(b,c,a){if(a)var
+f=a[1],g=fK(b,c,a[2]),d=[0,e(function(a){return Q(s(b,s(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-jp(a){return l(function(a){var
-b=L(a[1],d);return b?L(a[2],d):b},a)}function
-jq(c,b,a){var
-d=V(b,a);return aq(function(a,b){return A(t(c,a[1],a[2]),b)},u,d)}function
-jr(c,b,a){var
-d=bL(jq(c,a,b));return aq(function(b,a){return G(bL(b),a)},d,a)}function
-cq(a){return J(a,b)}function
-fD(a,i,c,v,u){var
-f=v,e=u;for(;;){if(f){var
-j=f[1],n=0;if(!jp(c)&&!jp(j)){var
-h=jr(a,i,j),o=cq(a),p=jr(a,i,c),b=eE([0,jr(a,i,c),p],o,[0,h,h])[1],k=K(d,h),l=k?K(d,b):k;if(l)var
-q=au(i7(a,[0,b,b])),r=function(b){return function(d,c){return C(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,a$(e,jo(a,q,aU(function(c){return function(b){return t(a,c,b)}}(s),$,r,j,c)))];else
+fL(a){return l(function(a){var
+b=H(a[1],d);return b?H(a[2],d):b},a)}function
+eP(c,b,a){var
+d=N(b,a);return am(function(a,b){return z(s(c,a[1],a[2]),b)},t,d)}function
+eQ(c,b,a){var
+d=bO(eP(c,a,b));return am(function(b,a){return G(bO(b),a)},d,a)}function
+a$(a){return L(a,b)}function
+jz(a,f,c,e,h){if(!fL(c)&&!fL(e)){var
+g=eQ(a,f,e),l=a$(a),m=eQ(a,f,c),b=co([0,eQ(a,f,c),m],l,[0,g,g])[1],i=I(d,g),j=i?I(d,b):i;if(j)var
+n=an(g7(a,[0,b,b])),o=function(d,c){return B(s(a,[0,b,b],d),c)},p=[0,b,b],k=[0,aV(h,fK(a,n,aL(function(b){return s(a,p,b)},Q,o,e,c)))];else
 var
-m=l;var
-g=m;n=1}if(!n)var
-g=[0,e];if(g){var
-f=f[2],e=g[1];continue}return g}return[0,e]}}function
-nA(a){var
-b=a[2],c=e(function(a){return[0,a[1],u]},b);return[0,[0,a[1][1],u],c]}function
-js(h,n,a,m,l,k){var
+k=j;return k}return[0,h]}function
+fM(h,g,f,e,d){var
+a=e,b=d;for(;;){if(a){var
+c=jz(h,g,f,a[1],b);if(c){var
+a=a[2],b=c[1];continue}return c}return[0,b]}}function
+nD(a){var
+b=a[2],c=e(function(a){return[0,a[1],t]},b);return[0,[0,a[1][1],t],c]}function
+jA(h,n,a,m,l,k){var
 d=m,c=l,b=k;for(;;){if(d){if(c){var
-i=c[1],j=i[1],f=d[1],o=cN(j[2]),p=a$(b,jj(a,f,eK(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(au,eK(a,b[1],b[2],c))}}(f),q),g=fD(h,n,e(function(b){return aS(b,a,cq(h))},f),r,p);if(g){var
+i=c[1],j=i[1],f=d[1],o=b5(j[2]),p=aV(b,hc(a,f,dh(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(an,dh(a,b[1],b[2],c))}}(f),q),g=fM(h,n,e(function(b){return aH(b,a,a$(h))},f),r,p);if(g){var
 d=d[2],c=c[2],b=g[1];continue}return g}return[0,b]}return[0,b]}}function
-nB(a,j,r,q){var
+nE(a,j,r,q){var
 c=r,f=q;for(;;){if(c){var
-k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,cl(g),h],f];if(m){var
-o=K(d,g[1]);if(o)var
+k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,bA(g),h],f];if(m){var
+o=I(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,au(a[2]),b]},m),t=e(function(a){return u},h),v=[0,cq(a),t],w=cq(a),b=fD(a,[0,$(eE(jq(a,h,j),w,g)),j],v,s,n);else
+b=a[1];return[0,an(a[2]),b]},m),u=e(function(a){return t},h),v=[0,a$(a),u],w=a$(a),b=fM(a,[0,Q(co(eP(a,h,j),w,g)),j],v,s,n);else
 var
 b=o}else
 var
 b=[0,n];if(b){var
-i=g5(a,b[1]);if(i){var
+i=fG(a,b[1]);if(i){var
 c=c[2],f=i[1];continue}var
 p=i}else
 var
 p=b;return p}return[0,f]}}function
-nC(c,b,a){var
-d=aB(0,a);return e(function(a){return n(a,b)?cq(c):u},d)}function
-nD(c,b,a){if(b){if(a){var
-d=nD(c,b[2],a[2]);return A(aS(b[1],c,a[1]),d)}return u}return u}function
-nE(a,j){switch(j){case
+nF(c,b,a){var
+d=aA(0,a);return e(function(a){return m(a,b)?a$(c):t},d)}function
+nG(c,b,a){if(b){if(a){var
+d=nG(c,b[2],a[2]);return z(aH(b[1],c,a[1]),d)}return t}return t}function
+nH(a,j){switch(j){case
 0:var
-d=aR(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
+d=aT(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
-f=aR(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-c=dK(G(a[1],a[2]),b),h=aR(c,a[2]),i=aR(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
-jt(d,c,a){if(a)var
-e=a[1],g=jt(d,[0,c],a[2]),b=x(aJ,mB(function(a){return n(a[1],c)},d)),h=b?nE(e,b[1])[1]:e,f=[0,h,g];else
+f=aT(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
+c=dO(G(a[1],a[2]),b),h=aT(c,a[2]),i=aT(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+hk(d,c,a){if(a)var
+e=a[1],g=hk(d,[0,c],a[2]),b=x(aK,mE(function(a){return m(a[1],c)},d)),h=b?nH(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}function
-nF(a,b){return e(function(a){var
-c=a[2];return nE(r(a[1],b,u),c)[2]},a)}function
-hb(i,b,f,a){function
-d(a){return aH(b,a[1])}var
-h=0,j=ad(u);function
+nI(a,b){return e(function(a){var
+c=a[2];return nH(q(a[1],b,t),c)[2]},a)}function
+hl(i,b,f,a){function
+d(a){return av(b,a[1])}var
+h=0,j=_(t);function
 c(f,d,a,b){if(a){var
-h=function(a){return aH(f,r(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(f,[0,d],a[2],b),n=a[1];return g(e(function(a){var
-b=t(i,a,l);return[0,e(function(b){return t(i,a,b)},k),b]},n),m)}return a}var
+h=function(a){return av(f,q(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(f,[0,d],a[2],b),n=a[1];return g(e(function(a){var
+b=s(i,a,l);return[0,e(function(b){return s(i,a,b)},k),b]},n),m)}return a}var
 k=c(b,h,f,a),l=d(a[2]);return[0,[0,e(d,a[1]),l],k]}var
-u4=ad(u);function
-nG(e,d,c){if(d){var
-f=r(e,c[2],u5),a=f?f[1]:[0,u4];if(a)var
-b=nG([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+vg=_(t);function
+nJ(e,d,c){if(d){var
+f=q(e,c[2],vh),a=f?f[1]:[0,vg];if(a)var
+b=nJ([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return u6}function
-hc(b,a){return aj(function(a){return n(b,a)},a)}function
-cT(d,b,a){if(b)if(a)var
-e=a[1],f=b[1],c=[0,cn(function(b,a){return[0,aG(d,b,a)]},f,e)];else
+g=a;return g}return vi}function
+fN(b,a){return ag(function(a){return m(b,a)},a)}function
+cW(d,b,a){if(b)if(a)var
+e=a[1],f=b[1],c=[0,cr(function(b,a){return[0,aI(d,b,a)]},f,e)];else
 var
 c=a;else
 var
 c=b;return c}function
-cr(b,a){return br(b,eN(a))}function
-hd(f,e,d,c,b){if(e)if(d)if(c)if(b)var
-g=e[1],h=hd(f,e[2],d[2],c[2],b[2]),a=[0,KX(f,g[1],g[2],d[1],c[1],b[1]),h];else
+cu(b,a){return bs(b,eN(a))}function
+hm(f,e,d,c,b){if(e)if(d)if(c)if(b)var
+g=e[1],h=hm(f,e[2],d[2],c[2],b[2]),a=[0,Lb(f,g[1],g[2],d[1],c[1],b[1]),h];else
 var
 a=b;else
 var
@@ -2134,107 +2137,159 @@ var
 a=d;else
 var
 a=e;return a}function
-bN(b,a){return r(a,b[2],nH)}function
-nI(d,b,a,c){if(n(a,c)){var
-f=bN(b,a),e=function(a){return eG(d,a)};return x(function(a){return x(e,a)},f)}var
-g=bN(b,c);return cT(d,bN(b,a),g)}function
-nJ(b,a){return r(a,e(at,b),0)}function
-nK(a){if(a){var
-b=a[1],c=nK(a[2]);return g(e(function(a){return[0,b,a]},a),c)}return a}function
-ju(a,b){var
-c=aB(0,f(a));return nK(aZ(function(c){return hc(nJ(a,c),b)},c))}function
-nL(a){if(a){var
-d=a[1],b=d?d[1]:[0,ad(u)];if(b)var
-c=nL(a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+bQ(b,a){return q(a,b[2],nK)}function
+nL(d,b,a,c){if(m(a,c)){var
+f=bQ(b,a),e=function(a){return eH(d,a)};return x(function(a){return x(e,a)},f)}var
+g=bQ(b,c);return cW(d,bQ(b,a),g)}function
+nM(b,a){return q(a,e(as,b),0)}function
+nN(a){if(a){var
+b=a[1],c=nN(a[2]);return g(e(function(a){return[0,b,a]},a),c)}return a}function
+jB(a,b){var
+c=aA(0,f(a));return nN(aW(function(c){return fN(nM(a,c),b)},c))}function
+nO(a){if(a){var
+d=a[1],b=d?d[1]:[0,_(t)];if(b)var
+c=nO(a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return u7}function
-jv(h,a,d,c){var
-b=nF(a,c),f=ju(a,d);return g(b,e(function(a){if(n(a[1],a[2])){var
-c=r(a[1],b,0);if(c)var
-d=c[1],f=[0,au(t(h,d,d)),0];else
+e=b;return e}return vj}function
+hn(h,a,d,c){var
+b=nI(a,c),f=jB(a,d);return g(b,e(function(a){if(m(a[1],a[2])){var
+c=q(a[1],b,0);if(c)var
+d=c[1],f=[0,an(s(h,d,d)),0];else
 var
 f=c;return f}var
-g=r(a[1],b,0);return y(function(c){var
-d=r(a[2],b,0);return e(function(a){return t(h,c,a)},d)},g)},f))}function
-nM(a,c,i,p,o,g,n){var
-d=ba(c);return l(function(d){var
+g=q(a[1],b,0);return y(function(c){var
+d=q(a[2],b,0);return e(function(a){return s(h,c,a)},d)},g)},f))}function
+nP(a,c,i,p,o,g,n){var
+d=a9(c);return l(function(d){var
 f=h(n,d);if(f){var
-q=t(a,o,f[1]),j=C(J(a,b),q),r=i?C(j,aH(d,i[1])):j,k=function(b){function
-f(c){return t(a,b,aH(d,c))}var
-g=e(function(a){return e(f,a)},p);return a1(a,c,a$(ab([0,r,0],c),g))},l=k(au(g));if(l)return k($(au(g)));var
+q=s(a,o,f[1]),j=B(L(a,b),q),r=i?B(j,av(d,i[1])):j,k=function(b){function
+f(c){return s(a,b,av(d,c))}var
+g=e(function(a){return e(f,a)},p);return aX(a,c,aV($([0,r,0],c),g))},l=k(an(g));if(l)return k(Q(an(g)));var
 m=l}else
 var
 m=f;return m},d)}function
-nN(c,b,a){if(a){var
+nQ(c,b,a){if(a){var
 d=a[2];if(c){var
-f=nN(c[1],b,d);return[0,a[1],f]}var
+f=nQ(c[1],b,d);return[0,a[1],f]}var
 e=[0,b,d]}else
 var
 e=a;return e}function
-fE(a,g){var
-b=aZ(function(e){var
-c=r(e,a,u),b=F(c[1],d),f=b?F(d,c[2]):b;return I(f)},g);if(b){if(b[2])return a;var
-f=b[1],c=r(f,a,u),e=K(d,c[1])?c[1]:c[2];return nN(f,[0,e,e],a)}return a}function
-nO(c,a){if(a)var
-b=a[2],f=nO(c,b),g=b?b[1]:e(uh,c),d=[0,[0,a[1],g],f];else
+eR(a,g){var
+b=aW(function(e){var
+c=q(e,a,t),b=D(c[1],d),f=b?D(d,c[2]):b;return J(f)},g);if(b){if(b[2])return a;var
+f=b[1],c=q(f,a,t),e=I(d,c[1])?c[1]:c[2];return nQ(f,[0,e,e],a)}return a}function
+nR(c,a){if(a)var
+b=a[2],f=nR(c,b),g=b?b[1]:e(uv,c),d=[0,[0,a[1],g],f];else
 var
 d=a;return d}function
-jw(a){return a?nO(a[1],a):a}function
-di(c,d,b,a){if(d){var
+jC(a){return a?nR(a[1],a):a}function
+dm(c,d,b,a){if(d){var
 e=d[1];if(a){var
-f=di(c,e,b,a[2]);return[0,a[1],f]}return[0,c,di(c,e,b,0)]}return a?[0,b,a[2]]:[0,b,0]}function
-he(a,c,b){if(c)if(b)var
-g=b[2],e=b[1],h=c[2],d=c[1],i=he(a,h,g),j=function(c,b){var
-f=t(a,e,b);return A(t(a,d,c),f)},k=function(b){return t(a,e,b)},l=aU(function(b){return t(a,d,b)},k,j,g,h),f=[0,[0,t(a,A(d,d),e),l],i];else
+f=dm(c,e,b,a[2]);return[0,a[1],f]}return[0,c,dm(c,e,b,0)]}return a?[0,b,a[2]]:[0,b,0]}function
+ho(a,c,b){if(c)if(b)var
+g=b[2],e=b[1],h=c[2],d=c[1],i=ho(a,h,g),j=function(c,b){var
+f=s(a,e,b);return z(s(a,d,c),f)},k=function(b){return s(a,e,b)},l=aL(function(b){return s(a,d,b)},k,j,g,h),f=[0,[0,s(a,z(d,d),e),l],i];else
 var
 f=b;else
 var
 f=c;return f}function
-dj(d,c,b,a){return di(u,c,jq(d,a,b),a)}function
-jx(a,f,e,b,d,c){var
-g=aB(0,b);return aq(function(g,c){var
-h=dj(a,f,e,nC(a,g,b));return a$(c,jo(a,$(d),h))},c,g)}function
-jy(a,d,c,j,i,h,g,f){var
-k=dj(a,d,c,e(function(b){return J(a,D(h,b))},i));return a$(f,he(a,dj(a,d,c,e(function(c){return aS(c,G(g,b),cq(a))},j)),k))}function
-jz(a,h,g,q,f,p,o,n){var
+dn(d,c,b,a){return dm(t,c,eP(d,a,b),a)}function
+jD(a,f,e,b,d,c){var
+g=aA(0,b);return am(function(g,c){var
+h=dn(a,f,e,nF(a,g,b));return aV(c,fK(a,Q(d),h))},c,g)}function
+jE(a,d,c,j,i,h,g,f){var
+k=dn(a,d,c,e(function(b){return L(a,E(h,b))},i));return aV(f,ho(a,dn(a,d,c,e(function(c){return aH(c,G(g,b),a$(a))},j)),k))}function
+jF(a,h,g,q,f,p,o,n){var
 d=p,c=o,b=n;for(;;){if(d){if(c){var
-k=c[1],l=k[1],i=d[1],m=dj(a,h,g,e(function(b){return aS(b,f,cq(a))},i)),r=cN(l[2]),s=dj(a,h,g,eK(f,l[1],r,i)),t=a$(b,he(a,e(au,m),s)),u=k[2],j=fD(a,q,m,e(function(c){return function(b){return dj(a,h,g,e(au,eK(f,b[1],b[2],c)))}}(i),u),t);if(j){var
+k=c[1],l=k[1],i=d[1],m=dn(a,h,g,e(function(b){return aH(b,f,a$(a))},i)),r=b5(l[2]),s=dn(a,h,g,dh(f,l[1],r,i)),t=aV(b,ho(a,e(an,m),s)),u=k[2],j=fM(a,q,m,e(function(c){return function(b){return dn(a,h,g,e(an,dh(f,b[1],b[2],c)))}}(i),u),t);if(j){var
 d=d[2],c=c[2],b=j[1];continue}return j}return[0,b]}return[0,b]}}function
-nP(g,b,f,a){if(a)var
-c=a[2],d=a[1],h=r(b,c,u),e=[0,d,di(u,b,A(t(g,f,d),h),c)];else
+nS(g,b,f,a){if(a)var
+c=a[2],d=a[1],h=q(b,c,t),e=[0,d,dm(t,b,z(s(g,f,d),h),c)];else
 var
 e=a;return e}function
-nQ(a,b,m,D,C,B){var
+nT(a,b,m,D,C,B){var
 i=C,h=B;for(;;){if(i){var
-n=i[1],o=n[1],j=o[2],p=n[2],c=dj(a,b,m,o[1]);if(p){var
-q=K(d,j[1]);if(q)var
-E=cq(a),f=cl($(eE(r(b,c,u),E,j))),k=cl(j),v=di(u,b,f,0),w=r(b,c,u),x=a$(h,he(a,v,di(u,b,A(au(t(a,f,k)),w),c))),y=r(b,c,u),z=[0,[0,k,di(u,b,A(t(a,f,k),y),c)],x],F=e(function(e){return function(c){var
-d=dj(a,b,m,c[1]);return nP(a,b,e,[0,au(c[2]),d])}}(f),p),G=e(function(a){return u},c),g=fD(a,[0,u,D],nP(a,b,f,[0,cq(a),G]),F,z);else
+n=i[1],o=n[1],j=o[2],p=n[2],c=dn(a,b,m,o[1]);if(p){var
+r=I(d,j[1]);if(r)var
+E=a$(a),f=bA(Q(co(q(b,c,t),E,j))),k=bA(j),v=dm(t,b,f,0),w=q(b,c,t),x=aV(h,ho(a,v,dm(t,b,z(an(s(a,f,k)),w),c))),y=q(b,c,t),A=[0,[0,k,dm(t,b,z(s(a,f,k),y),c)],x],F=e(function(e){return function(c){var
+d=dn(a,b,m,c[1]);return nS(a,b,e,[0,an(c[2]),d])}}(f),p),G=e(function(a){return t},c),g=fM(a,[0,t,D],nS(a,b,f,[0,a$(a),G]),F,A);else
 var
-g=q}else
+g=r}else
 var
-g=[0,[0,[0,cl(j),c],h]];if(g){var
-l=g5(a,g[1]);if(l){var
+g=[0,[0,[0,bA(j),c],h]];if(g){var
+l=fG(a,g[1]);if(l){var
 i=i[2],h=l[1];continue}var
-s=l}else
+u=l}else
 var
-s=g;return s}return[0,h]}}function
-nR(a){if(a)var
+u=g;return u}return[0,h]}}function
+nU(c,b,a){if(b){var
+d=a?[0,c,nU(c,b[1],a[2])]:a;return d}return a}function
+jG(b,a){return am(function(c,a){return z(P(b,c),a)},t,a)}function
+nV(b,a,d,c){function
+e(d,c){return B(d,s(b,a,c))}function
+f(c){return Q(s(b,a,c))}return aL(function(a){return a},f,e,d,c)}function
+nW(a,c,b){if(c)if(b)var
+g=b[2],d=b[1],h=c[2],e=c[1],j=nW(a,h,g),i=s(a,e,d),k=function(c,b){var
+f=s(a,d,b);return z(s(a,e,c),f)},l=function(b){return s(a,d,b)},m=aL(function(b){return s(a,e,b)},l,k,g,h),f=[0,[0,z(i,i),m],j];else
+var
+f=b;else
+var
+f=c;return f}function
+nX(b,d,f,a){if(a){var
+c=a[1],i=a[2],j=nX(b,d,aU(f),i);if(c)var
+k=c[2],l=e(function(a){return s(b,d,Q(a))},k),m=c[1],n=f?t:a$(b),g=[0,s(b,d,B(n,m)),l];else
+var
+g=c;var
+h=[0,g,j]}else
+var
+h=a;return h}function
+vo(a,b,o,c,k,j,i){if(H(j[1],d))return jz(a,b,c,k,i);var
+l=bA(j);function
+p(g){if(I(d,j[1]))return[0,i];var
+c=h(g,0),k=f(b),e=m(f(c),k),n=e?[0,aV(i,nX(a,l,o,c))]:e;return n}var
+q=bN(a,eP(a,c,b));if(q)var
+n=q[1],r=nU(t,o,b),y=e(function(b){return s(a,b,n)},r),u=nV(a,s(a,s(a,an(jG(a,r)),n),n),y,c),A=p(function(b){return nW(a,c,u)}),w=function(c,b){return z(c,s(a,l,b))},x=function(b){return s(a,l,b)},g=A,v=aL(function(a){return a},x,w,k,u);else
+var
+g=p(function(a){return $([0,t,0],f(b))}),v=k;return g?jz(a,b,c,v,g[1]):g}function
+nY(a,g,y,S,c,R,O){var
+i=R,h=O;for(;;){if(i){var
+A=i[1],n=A[2],j=A[1];if(y&&I(d,n[1])){var
+f=y[1],o=bA(n),k=aV(h,fK(a,o,f)),C=0;if(fL(c)||fL(j))C=1;else{var
+l=eQ(a,g,j),D=a$(a),E=eQ(a,g,c),b=co([0,eQ(a,g,c),E],D,[0,l,l])[1],p=I(d,l),q=p?I(d,b):p;if(q){var
+F=an(g7(a,[0,b,b])),G=function(b){return function(d,c){return B(s(a,[0,b,b],d),c)}}(b),H=[0,b,b],m=aL(function(c){return function(b){return s(a,c,b)}}(H),Q,G,j,c),J=jG(a,f),K=z(a$(a),J),L=a$(a),r=bA(co(eP(a,m,f),L,K)),M=P(a,r),t=z(jG(a,nV(a,r,m,f)),M),u=I(d,t[1]);if(u)var
+v=b5(B(F,co(o,a$(a),t))),N=I(d,v[1])?aV(k,fK(a,v,m)):k,w=[0,N];else
+var
+w=u;var
+x=w}else
+var
+x=q;var
+e=x}if(C)var
+e=[0,k]}else
+var
+e=vo(a,g,S,c,j,n,h);if(e){var
+i=i[2],h=e[1];continue}return e}return[0,h]}}function
+nZ(e,d,a){return am(function(b,a){return z(am(function(a,b){var
+c=q(a[1],d,t);return z(aH(a[2],e,c),b)},t,b),a)},t,a)}function
+n0(c,j,i,h,a,f,b){if(a){var
+k=function(a){var
+b=_(t);return av(i,q(h,a[2],b))},m=e(k,b[1]),n=k(b[2]),l=bG(d,f),o=bx(f),p=n0(c,j,i,[0,h],a[2],o,b),r=a[1];return g(e(function(a){var
+b=H(l,d)?t:aH(l,j,a),f=s(c,a,n);return[0,[0,e(function(b){return s(c,a,b)},m),f],b]},r),p)}return a}function
+n1(a){if(a)var
 b=a[1],c=[0,b[1],[0,b[2],0]];else
 var
 c=a;return c}function
-jA(f,d,c,b,a){var
-g=e(ad,c);return c$(0,b4(f,dU(0,a),g),b,d)}function
-ac(a){if(a){var
+jH(f,d,c,b,a){var
+g=e(_,c);return db(0,b7(f,dj(0,a),g),b,d)}function
+ad(a){if(a){var
 b=a[1];if(b)var
-c=ac(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=ad(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return va}function
-fF(b,a){if(a){var
-h=a[1],n=h[1],c=ac(e(function(a){return r(a,b,0)},n));if(c){var
-f=r(h[2],b,0);if(f){var
-i=f[1],g=fF(b,a[2]);if(g)var
-j=K(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
+d=b;return d}return vq}function
+fO(b,a){if(a){var
+h=a[1],n=h[1],c=ad(e(function(a){return q(a,b,0)},n));if(c){var
+f=q(h[2],b,0);if(f){var
+i=f[1],g=fO(b,a[2]);if(g)var
+j=I(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
 l=k}else
@@ -2242,79 +2297,78 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return vb}function
-cU(d,c,b){var
-a=fF(d,c);return a?h(b,a[1]):a}function
-dk(a,b){return l(function(c){var
-a=r(c,b,0),d=a?1:a;return d},a)}function
-hf(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aU(function(a){return a},f,A,e,d),h=a[2];return[0,A(a[1],c[1]),h,g]}return a}function
-jB(b,a){return b?nh(a,b[1]):a}function
-jC(h,g,b,f){var
-a=r(f,h,0);if(a){var
+m=c;return m}return vr}function
+cX(d,c,b){var
+a=fO(d,c);return a?h(b,a[1]):a}function
+dp(a,b){return l(function(c){var
+a=q(c,b,0),d=a?1:a;return d},a)}function
+hp(b,a){return b?jx(a,b[1]):a}function
+jI(b,a){return b?nk(a,b[1]):a}function
+jJ(h,g,b,f){var
+a=q(f,h,0);if(a){var
 c=a[1];if(b){var
-i=nh(c,b[1]),e=ba(g);return l(function(a){return F(d,aH(a,i)[1])},e)}return F(d,c[2][1])}return a}function
-jD(f,d,a){function
-c(a){return aS(a,d,J(f,b))}if(a){var
-g=e(c,a[2]);return[0,c(a[1]),u,g]}return ad(u)}function
-hg(b,a){var
-c=r(a[1],b,0);if(c){var
-d=r(a[2],b,0);if(d)var
-e=r(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
+i=nk(c,b[1]),e=a9(g);return l(function(a){return D(d,av(a,i)[1])},e)}return D(d,c[2][1])}return a}function
+jK(f,d,a){function
+c(a){return aH(a,d,L(f,b))}if(a){var
+g=e(c,a[2]);return[0,c(a[1]),t,g]}return _(t)}function
+hq(b,a){var
+c=q(a[1],b,0);if(c){var
+d=q(a[2],b,0);if(d)var
+e=q(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
 var
 f=d;var
 g=f}else
 var
 g=c;return g}function
-fG(b,a){return ac(e(function(a){return r(a,b,0)},a))}function
-eP(c,k,aa,E,i,h,j,g,a){switch(g[0]){case
+fP(b,a){return ad(e(function(a){return q(a,b,0)},a))}function
+eS(c,k,ab,E,i,h,j,g,a){switch(g[0]){case
 0:var
-s=g[1];if(typeof
+u=g[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-ab=dk(E,i);if(ab){var
-aG=a[2],aI=a[1],aJ=hf(j,ad(s));return cU(i,k,function(a){return fB(c,h,aJ,aI,aG,a)})}return ab;case
+ac=dp(E,i);if(ac){var
+aI=a[2],aJ=a[1],aK=hp(j,_(u));return cX(i,k,function(a){return fH(c,h,aK,aJ,aI,a)})}return ac;case
 1:var
-ae=dk(E,i);if(ae){var
-aK=a[2],aL=a[1],aM=hf(j,ad(s));return cU(i,aa,function(a){return fB(c,h,aM,aL,aK,a)})}return ae;case
+ae=dp(E,i);if(ae){var
+aL=a[2],aM=a[1],aN=hp(j,_(u));return cX(i,ab,function(a){return fH(c,h,aN,aM,aL,a)})}return ae;case
 2:var
-af=dk(E,i);if(af){var
-ag=L(s[1],d),ah=ag?L(s[2],d):ag;if(ah){var
-aN=a[2],aO=a[1];return cU(i,k,function(a){return ng(c,h,j,aO,aN,a)})}var
+af=dp(E,i);if(af){var
+ag=H(u[1],d),ah=ag?H(u[2],d):ag;if(ah){var
+aO=a[2],aP=a[1];return cX(i,k,function(a){return nj(c,h,j,aP,aO,a)})}var
 ai=ah}else
 var
 ai=af;return ai}return 0;case
 1:var
 aj=g[1];if(typeof
 a==="number"){if(1===a){var
-aP=jB(j,ad(aj));return cU(i,aa,function(a){return jl(c,h,aP,a)})}if(!a){var
-aQ=jB(j,ad(aj));return cU(i,k,function(a){return jl(c,h,aQ,a)})}}return 0;case
+aQ=jI(j,_(aj));return cX(i,ab,function(a){return jw(c,h,aQ,a)})}if(!a){var
+aR=jI(j,_(aj));return cX(i,k,function(a){return jw(c,h,aR,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-ak=a[1],m=jD(c,ak,a[3]),al=g[1],aT=a[2];return cU(i,k,function(d){var
-a=jm(h,m),b=a?fB(c,h,hf(j,m),ak,aT,d):a;if(b){var
-f=m[3],g=e(function(a){return t(c,al,a)},f),i=m[2];return jl(c,h,jB(j,[0,t(c,al,m[1]),i,g]),d)}return b})}return 0;case
+ak=a[1],n=jK(c,ak,a[3]),al=g[1],aS=a[2];return cX(i,k,function(d){var
+a=hf(h,n),b=a?fH(c,h,hp(j,n),ak,aS,d):a;if(b){var
+f=n[3],g=e(function(a){return s(c,al,a)},f),i=n[2];return jw(c,h,jI(j,[0,s(c,al,n[1]),i,g]),d)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return jC(i,h,j,g[1]);return 0;case
+a==="number"&&!a)return jJ(i,h,j,g[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-aU=a[2],aV=a[1],aW=hf(j,ad(g[2])),aX=function(a){return fB(c,h,aW,aV,aU,a)};return cU(i,g[1],aX)}return 0;case
+aU=a[2],aW=a[1],aY=hp(j,_(g[2])),aZ=function(a){return fH(c,h,aY,aW,aU,a)};return cX(i,g[1],aZ)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return jC(i,h,j,g[1]);case
-2:return jC(i,h,j,g[2])}return 0;case
+0:return jJ(i,h,j,g[1]);case
+2:return jJ(i,h,j,g[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-F=hg(i,g[1]);if(F){var
-H=hg(i,g[2]);if(H){var
-I=hg(i,g[3]);if(I){var
-K=hg(i,g[4]);if(K){var
-am=K[1],an=I[1],ao=H[1],ap=F[1],o=a[2],v=g[5],aY=a[1];if(o){var
+F=hq(i,g[1]);if(F){var
+I=hq(i,g[2]);if(I){var
+J=hq(i,g[3]);if(J){var
+K=hq(i,g[4]);if(K){var
+an=K[1],ao=J[1],ap=I[1],aq=F[1],o=a[2],v=g[5],a0=a[1];if(o){var
 p=o[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-aF=[0,o[1],p[1],q[1]],r=nm(function(f){function
-g(a){return aS(a,aY,J(c,b))}if(f){var
-a=e(g,f[2]),d=g(f[1]),h=g1(a),i=G(d[2],h),j=g1(a);return[0,d,[0,aR(d[1],j),i],a]}return ad(u)},aF),P=l(function(a){return n(f(a),[0,h])},o),Q=P?g_(c,h,j,v,r,ap,an):P,R=Q?g_(c,h,j,v,r,ap,am):Q,T=R?g_(c,h,j,v,r,ao,an):R;if(T)return g_(c,h,j,v,r,ao,am);var
+aG=[0,o[1],p[1],q[1]],r=np(function(f){function
+g(a){return aH(a,a0,L(c,b))}if(f){var
+a=e(g,f[2]),d=g(f[1]),h=g_(a),i=G(d[2],h),j=g_(a);return[0,d,[0,aT(d[1],j),i],a]}return _(t)},aG),Q=l(function(a){return m(f(a),[0,h])},o),R=Q?hh(c,h,j,v,r,aq,ao):Q,S=R?hh(c,h,j,v,r,aq,an):R,T=S?hh(c,h,j,v,r,ap,ao):S;if(T)return hh(c,h,j,v,r,ap,an);var
 U=T}else
 var
 U=q;var
@@ -2326,90 +2380,90 @@ var
 W=o;return W}var
 ar=K}else
 var
-ar=I;var
+ar=J;var
 as=ar}else
 var
-as=H;var
+as=I;var
 at=as}else
 var
 at=F;return at}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
-au=a[2],av=a[1],aZ=g[2],a0=g[1];return cU(i,k,function(e){var
-a=n(f(e),h),d=a?n(f(au),h):a;if(d){var
+au=a[2],aw=a[1],a1=g[2],a2=g[1];return cX(i,k,function(e){var
+a=m(f(e),h),d=a?m(f(au),h):a;if(d){var
 g=function(a){if(a){var
-d=a[2],e=n(f(d),h);if(e){var
-i=dV(av,dW(av,au,J(c,b),d));return a1(c,h,a$(g$(c,a0,aZ,a[1][2],d),i))}var
+d=a[2],e=m(f(d),h);if(e){var
+i=dY(aw,dZ(aw,au,L(c,b),d));return aX(c,h,aV(hi(c,a2,a1,a[1][2],d),i))}var
 g=e}else
 var
-g=a;return g},i=j?j[1]:ad(u);return ji(h,jk(i,e),g)}return d})}return 0;case
+g=a;return g},i=j?j[1]:_(t);return ju(h,jv(i,e),g)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
-a2=g[3],a3=g[2],a4=function(a){return ng(c,h,j,a3,a2,a)};return cU(i,g[1],a4)}return 0;case
+a3=g[3],a4=g[2],a5=function(a){return nj(c,h,j,a4,a3,a)};return cX(i,g[1],a5)}return 0;case
 11:if(typeof
 a==="number"&&!a){var
-M=fG(i,g[1]);if(M){var
-a5=g[2],N=ac(e(function(a){return fG(i,a)},a5));if(N){var
-a6=nR(g[5]),O=fG(i,[0,g[3],[0,g[4],a6]]);if(O){var
+M=fP(i,g[1]);if(M){var
+a6=g[2],N=ad(e(function(a){return fP(i,a)},a6));if(N){var
+a7=n1(g[5]),O=fP(i,[0,g[3],[0,g[4],a7]]);if(O){var
 w=O[1];if(w){var
 y=w[2];if(y){var
-z=y[2],aw=fG(i,g[6]);if(aw){if(z)var
-B=z[2],a7=B?B[2]?0:[0,[0,z[1][2],B[1]]]:B,D=a7;else
+A=y[2],ax=fP(i,g[6]);if(ax){if(A)var
+C=A[2],a8=C?C[2]?0:[0,[0,A[1][2],C[1]]]:C,D=a8;else
 var
-D=z;var
-ax=y[1][2],ay=w[1][2],az=N[1],a8=M[1],X=nM(c,h,j,az,ay,ax,function(d){return[0,eL(c,aq(function(b,a){return A(S(c,aH(d,b)),a)},u,a8))]});if(X)var
+D=A;var
+ay=y[1][2],az=w[1][2],aA=N[1],a9=M[1],X=nP(c,h,j,aA,az,ay,function(d){return[0,eL(c,am(function(b,a){return z(P(c,av(d,b)),a)},t,a9))]});if(X)var
 Y=X;else{if(D){var
-Z=D[1],_=Z[2],$=Z[1];return nM(c,h,j,az,ay,ax,function(f){var
-b=cl(_[1]),a=ck(c,C($,S(c,b)));if(a){var
-d=b2(c,a[1]),e=C($,t(c,b,aH(f,_)));return x(function(a){return t(c,e,a)},d)}return a})}var
+Z=D[1],$=Z[2],aa=Z[1];return nP(c,h,j,aA,az,ay,function(f){var
+b=bA($[1]),a=cn(c,B(aa,P(c,b)));if(a){var
+d=bN(c,a[1]),e=B(aa,s(c,b,av(f,$)));return x(function(a){return s(c,e,a)},d)}return a})}var
 Y=D}return Y}var
-aA=aw}else
+aB=ax}else
 var
-aA=y;var
-aB=aA}else
-var
-aB=w;var
+aB=y;var
 aC=aB}else
 var
-aC=O;var
+aC=w;var
 aD=aC}else
 var
-aD=N;var
+aD=O;var
 aE=aD}else
 var
-aE=M;return aE}return 0;default:return 0}}function
-nS(c,a){var
-d=r(a[1],c,0);if(d)var
-g=a[2][2],b=ac(e(function(a){var
-b=r(a[2],c,0);return x(function(b){return[0,a[1],b]},b)},g)),h=b?[0,[0,a[2][1],b[1]]]:b,f=h;else
+aE=N;var
+aF=aE}else
+var
+aF=M;return aF}return 0;default:return 0}}function
+n2(c,a){var
+d=q(a[1],c,0);if(d)var
+g=a[2][2],b=ad(e(function(a){var
+b=q(a[2],c,0);return x(function(b){return[0,a[1],b]},b)},g)),h=b?[0,[0,a[2][1],b[1]]]:b,f=h;else
 var
 f=d;return f}function
-nT(b,a){return g(b,cL(a[1]))}function
-nU(a,B,z,v,s,aw,o,m,q,p,k){switch(p[0]){case
+n3(b,a){return g(b,cP(a[1]))}function
+n4(a,C,A,v,u,ax,o,n,r,p,k){switch(p[0]){case
 9:var
-a7=p[2],a8=p[1];if(typeof
+a8=p[2],a_=p[1];if(typeof
 k!=="number"&&9===k[0]){var
-ax=k[2],M=k[1],a9=k[3];if(0<aX(k[4]))return eP(a,z,v,s,o,f(m),q,p,k);var
-a_=cO(g(s,y(function(a){return g(a[1],[0,a[2],0])},v)),B),aR=e(ad,aw),_=c$(0,b4(a,ha(0,m,a8),aR),a_,B),ay=n(f(m),vc),aA=ay?dk(s,_):ay;if(aA){var
-N=fF(_,v);if(N){var
-O=fF(o,v);if(O){var
-P=ac(e(function(a){return nS(o,a)},a7));if(P){var
-Q=np(N[1]);if(Q){var
-aB=O[1],bb=P[1],bc=Q[1],aa=eL(a,aq(function(f,i){function
+ay=k[2],M=k[1],a$=k[3];if(0<a0(k[4]))return eS(a,A,v,u,o,f(n),r,p,k);var
+ba=cp(g(u,y(function(a){return g(a[1],[0,a[2],0])},v)),C),aS=e(_,ax),ab=db(0,b7(a,hj(0,n,a_),aS),ba,C),az=m(f(n),vs),aA=az?dp(u,ab):az;if(aA){var
+N=fO(ab,v);if(N){var
+O=fO(o,v);if(O){var
+R=ad(e(function(a){return n2(o,a)},a8));if(R){var
+S=ns(N[1]);if(S){var
+aC=O[1],bb=R[1],bc=S[1],ac=eL(a,am(function(f,i){function
 b(b,d){var
-a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return bL(r(d,c[3],u))}function
+a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return bO(q(d,c[3],t))}function
 c(a){var
-b=h(a,uP),c=bv(h(a,uQ),b);return bv(h(a,0),c)}var
+b=h(a,u3),c=bw(h(a,u4),b);return bw(h(a,0),c)}var
 d=c(function(a){var
-c=b(uR,a),d=b(uS,a);return G(G(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,uT),d=b(a,uU);return G(G(b(a,0),d),c)});return A(i,S(a,eL(a,t(a,[0,e,e],g))))},u,bc)),D=aS(a9,M,J(a,b)),af=K(d,C(D,aa)[1]),ag=af?n(f(ax),u0):af,ah=ag?n(f(aB),u1):ag;if(ah){var
-E=b2(a,D);if(E){var
-aU=au(t(a,aa,E[1])),aV=C(J(a,b),aU),aW=ba(u2);return l(function(i){var
-g=e(function(b){return nq(a,i,b[1],b[2])},bb),p=h(az(function(a){return aH(i,a)}),aB),F=q?aH(i,q[1]):u,N=S(a,aV),r=S(a,D),o=dV(M,dW(M,ax,J(a,b),p)),c=a$(ab([0,$(F),0],uV),o);if(g){var
+c=b(u5,a),d=b(u6,a);return G(G(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,u7),d=b(a,u8);return G(G(b(a,0),d),c)});return z(i,P(a,eL(a,s(a,[0,e,e],g))))},t,bc)),D=aH(a$,M,L(a,b)),af=I(d,B(D,ac)[1]),ag=af?m(f(ay),vc):af,ah=ag?m(f(aC),vd):ag;if(ah){var
+E=bN(a,D);if(E){var
+aT=an(s(a,ac,E[1])),aW=B(L(a,b),aT),aY=a9(ve);return l(function(i){var
+g=e(function(b){return nt(a,i,b[1],b[2])},bb),p=h(aB(function(a){return av(i,a)}),aC),F=r?av(i,r[1]):t,N=P(a,aW),q=P(a,D),o=dY(M,dZ(M,ay,L(a,b),p)),c=aV($([0,Q(F),0],u9),o);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-B=d[1],E=g[1],I=f[1],j=a1(a,uX,a$(ab([0,$(r),0],uW),c));if(j)return l(function(D){var
-J=C(N,F),K=D[2]?B:$(B),L=D[1]?E:$(E),o=0;if(c){var
+C=d[1],E=g[1],I=f[1],j=aX(a,u$,aV($([0,Q(q),0],u_),c));if(j)return l(function(D){var
+J=B(N,F),K=D[2]?C:Q(C),L=D[1]?E:Q(E),o=0;if(c){var
 b=c[1],l=0;if(b){var
 d=b[2],m=0;if(d){var
 e=d[2],n=0;if(e)if(e[2]){var
@@ -2448,7 +2502,7 @@ var
 z=b;if(!l){var
 A=z;o=1}}else{var
 A=c;o=1}if(o)var
-k=A;return a1(a,uZ,k)},uY);var
+k=A;return aX(a,vb,k)},va);var
 k=j}else
 var
 k=f;var
@@ -2457,74 +2511,74 @@ var
 m=d;var
 n=m}else
 var
-n=g;return n},aW)}var
+n=g;return n},aY)}var
 ai=E}else
 var
 ai=ah;return ai}var
-aC=Q}else
+aD=S}else
 var
-aC=P;var
-aD=aC}else
-var
-aD=O;var
+aD=R;var
 aE=aD}else
 var
-aE=N;var
+aE=O;var
 aG=aE}else
 var
-aG=aA;return aG}return eP(a,z,v,s,o,f(m),q,p,k);case
+aG=N;var
+aI=aG}else
+var
+aI=aA;return aI}return eS(a,A,v,u,o,f(n),r,p,k);case
 10:var
 i=p[1];if(typeof
 k!=="number"&&9===k[0]){var
-j=f(m),a2=cO(nT(s,i),B),a3=e(ad,aw),a4=i[7],a5=i[6],a6=f(m),av=c$(0,b4(a,ny(i[8],a6,m,a5,a4),a3),a2,B),aI=ae(i[8],j),aJ=aI?n(f(i[1]),j):aI;if(aJ)var
-bd=i[1],R=l(function(a){return n(f(a),j)},bd);else
+j=f(n),a3=cp(n3(u,i),C),a4=e(_,ax),a5=i[7],a6=i[6],a7=f(n),aw=db(0,b7(a,nB(i[8],a7,n,a6,a5),a4),a3,C),aJ=ae(i[8],j),aK=aJ?m(f(i[1]),j):aJ;if(aK)var
+bd=i[1],T=l(function(a){return m(f(a),j)},bd);else
 var
-R=aJ;if(R)var
-be=nT(s,i),T=l(function(b){var
-a=r(b,av,0),c=a?1:a;return c},be);else
+T=aK;if(T)var
+be=n3(u,i),U=l(function(b){var
+a=q(b,aw,0),c=a?1:a;return c},be);else
 var
-T=R;if(T)var
-bf=i[3],U=l(function(b){var
-a=r(b,o,0),c=a?1:a;return c},bf);else
+U=T;if(U)var
+bf=i[3],V=l(function(b){var
+a=q(b,o,0),c=a?1:a;return c},bf);else
 var
-U=T;if(U){var
-bg=i[1],V=ac(e(function(a){return fG(av,a)},bg));if(V){var
-W=fF(o,i[2]);if(W){var
-bh=i[4],X=ac(e(function(a){return nS(o,a)},bh));if(X){var
-Y=k[4],aK=k[2],Z=k[1],aL=X[1],aM=W[1],aN=V[1],w=i[8],bi=k[3],aj=ns(a,j,w,aN),F=aS(bi,Z,J(a,b)),ak=mw(Y,d);if(ak)var
+V=U;if(V){var
+bg=i[1],W=ad(e(function(a){return fP(aw,a)},bg));if(W){var
+X=fO(o,i[2]);if(X){var
+bh=i[4],Y=ad(e(function(a){return n2(o,a)},bh));if(Y){var
+Z=k[4],aL=k[2],aa=k[1],aM=Y[1],aN=X[1],aO=W[1],w=i[8],bi=k[3],aj=nv(a,j,w,aO),F=aH(bi,aa,L(a,b)),ak=mz(Z,d);if(ak)var
 H=ak;else
 var
-as=mx(Y,c(2,c(2,c(2,c(2,b))))),at=as?aF(0,w):as,H=at?aF(w,j):at;var
-al=H?K(d,C(F,aj)[1]):H,am=al?n(f(aK),j):al,an=am?n(f(aM),j):am;if(an){var
-ao=I(i[5]);if(ao)var
-x=ao;else
+at=mA(Z,c(2,c(2,c(2,c(2,b))))),au=at?aF(0,w):at,H=au?aF(w,j):au;var
+al=H?I(d,B(F,aj)[1]):H,ao=al?m(f(aL),j):al,ap=ao?m(f(aN),j):ao;if(ap){var
+aq=J(i[5]);if(aq)var
+x=aq;else
 var
-ar=l(function(c){var
-b=aq(function(c,b){var
-a=bL(c[2]);return A([0,a,a],b)},u,c);return nz(a,i[6],b)},aN),x=ar?l(function(c){var
-d=c[2],b=aq(function(b,d){var
-c=bL(b[2][2]);return A(t(a,b[1],[0,c,c]),d)},u,d);return nz(a,i[6],b)},aL):ar}else
+as=l(function(c){var
+b=am(function(c,b){var
+a=bO(c[2]);return z([0,a,a],b)},t,c);return nC(a,i[6],b)},aO),x=as?l(function(c){var
+d=c[2],b=am(function(b,d){var
+c=bO(b[2][2]);return z(s(a,b[1],[0,c,c]),d)},t,d);return nC(a,i[6],b)},aM):as}else
 var
-x=an;if(x){var
-L=b2(a,F);if(L){var
-aY=au(t(a,aj,L[1])),aZ=C(J(a,b),aY),a0=ba(j);return l(function(d){var
-s=e(function(b){return nq(a,d,b[1],b[2])},aL),y=h(az(function(a){return aH(d,a)}),aM),t=q?aH(d,q[1]):u,z=S(a,aZ),A=S(a,F),B=nt(j,w,i[9],Y),k=e(function(a){var
-b=a[2];return[0,nu(B,a[1]),b]},y),v=dV(Z,dW(Z,aK,J(a,b),k)),c=a$(ab([0,$(t),0],j),v),m=n(f(k),j),o=m?n(f(s),j):m,p=o?nw(j,c):o,r=p?a1(a,j,a$(ab([0,$(A),0],j),c)):p;if(r){var
-x=ba(aT(j));return l(function(b){var
-d=C(z,t);return a1(a,[0,j],nv(c,nx(g(b,u3),s),d))},x)}return r},a0)}var
-ap=L}else
+x=ap;if(x){var
+K=bN(a,F);if(K){var
+aZ=an(s(a,aj,K[1])),a1=B(L(a,b),aZ),a2=a9(j);return l(function(d){var
+s=e(function(b){return nt(a,d,b[1],b[2])},aM),y=h(aB(function(a){return av(d,a)}),aN),u=r?av(d,r[1]):t,z=P(a,a1),A=P(a,F),C=nw(j,w,i[9],Z),k=e(function(a){var
+b=a[2];return[0,nx(C,a[1]),b]},y),v=dY(aa,dZ(aa,aL,L(a,b),k)),c=aV($([0,Q(u),0],j),v),n=m(f(k),j),o=n?m(f(s),j):n,p=o?nz(j,c):o,q=p?aX(a,j,aV($([0,Q(A),0],j),c)):p;if(q){var
+x=a9(aU(j));return l(function(b){var
+d=B(z,u);return aX(a,[0,j],ny(c,nA(g(b,vf),s),d))},x)}return q},a2)}var
+ar=K}else
 var
-ap=x;return ap}var
-aO=X}else
+ar=x;return ar}var
+aP=Y}else
 var
-aO=W;var
-aP=aO}else
-var
-aP=V;var
+aP=X;var
 aQ=aP}else
 var
-aQ=U;return aQ}return eP(a,z,v,s,o,f(m),q,p,k);default:return eP(a,z,v,s,o,f(m),q,p,k)}}function
-hh(c){var
+aQ=W;var
+aR=aQ}else
+var
+aR=V;return aR}return eS(a,A,v,u,o,f(n),r,p,k);default:return eS(a,A,v,u,o,f(n),r,p,k)}}function
+hr(c){var
 a=c;for(;;){var
 b=0;if(typeof
 a==="number"){if(1!==a)b=1}else
@@ -2532,24 +2586,24 @@ switch(a[0]){case
 11:var
 a=a[3];continue;case
 12:var
-d=a[1];return l(function(a){return hh(a[2])},d);case
+d=a[1];return l(function(a){return hr(a[2])},d);case
 1:break;case
 5:case
 10:var
 a=a[1];continue;default:b=1}return b?0:1}}function
-hi(a){if(typeof
+hs(a){if(typeof
 a==="number"){if(1===a)return 0}else
 switch(a[0]){case
 1:return[0,a[1],a[2]];case
 5:var
-b=a[3],c=a[2];return[5,hi(a[1]),c,b];case
+b=a[3],c=a[2];return[5,hs(a[1]),c,b];case
 10:var
-d=a[4],e=a[3],f=a[2];return[10,hi(a[1]),f,e,d];case
+d=a[4],e=a[3],f=a[2];return[10,hs(a[1]),f,e,d];case
 11:var
-g=hi(a[3]);return[11,a[1],a[2],g]}return a}function
-dl(a){return y(function(a){return g(a[1],[0,a[2],0])},a)}function
-fH(i,c,h,a,f){var
-j=hh(f)?c:i,d=dl(j);switch(a[0]){case
+g=hs(a[3]);return[11,a[1],a[2],g]}return a}function
+cv(a){return y(function(a){return g(a[1],[0,a[2],0])},a)}function
+fQ(i,c,h,a,f){var
+j=hr(f)?c:i,d=cv(j);switch(a[0]){case
 0:return g(h,d);case
 3:return[0,a[1],0];case
 5:return[0,a[1],[0,a[2],0]];case
@@ -2557,33 +2611,33 @@ j=hh(f)?c:i,d=dl(j);switch(a[0]){case
 k=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return y(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},k);case
 9:var
 l=a[2],m=y(function(a){var
-b=e(aJ,a[2][2]);return[0,a[1],b]},l);return g(dl(c),m);case
+b=e(aK,a[2][2]);return[0,a[1],b]},l);return g(cv(c),m);case
 10:var
 b=a[1],n=b[4],o=y(function(a){var
-b=e(aJ,a[2][2]);return[0,a[1],b]},n),p=g(b[3],o);return g(dl(b[2]),p);case
+b=e(aK,a[2][2]);return[0,a[1],b]},n),p=g(b[3],o);return g(cv(b[2]),p);case
 11:var
-q=a[6],r=g(nR(a[5]),q),s=[0,a[3],[0,a[4],r]],t=g(cL(a[2]),s);return g(a[1],t);case
+q=a[6],r=g(n1(a[5]),q),s=[0,a[3],[0,a[4],r]],t=g(cP(a[2]),s);return g(a[1],t);case
 4:case
-8:return dl(a[1]);default:return d}}function
-fI(d){var
+8:return cv(a[1]);default:return d}}function
+eT(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=I(aj(function(b){return function(a){return n(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=J(ag(function(b){return function(a){return m(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-jE(a,i,h,n,s,d,b,c){var
-j=e(ad,jt(b,0,h));if(c){var
-k=e(function(a){return hc(a[1],c)?a[1]:f(h)},b),u=c$(vg,function(b){return jn(a,s,j,k,b)},d,i),t=ju(b,c),aK=e(at,b),aL=e(ad,h),v=c$(vh,function(b){var
-g=jn(a,s,aL,aK,b3(at,b)),f=0;switch(b[0]){case
+ht(a,i,h,n,s,d,b,c){var
+j=e(_,hk(b,0,h));if(c){var
+k=e(function(a){return fN(a[1],c)?a[1]:f(h)},b),u=db(vw,function(b){return jy(a,s,j,k,b)},d,i),t=jB(b,c),aK=e(as,b),aL=e(_,h),v=db(vx,function(b){var
+g=jy(a,s,aL,aK,b6(as,b)),f=0;switch(b[0]){case
 3:var
-af=function(b,a){return br},m=af,h=b[2],l=b[1];f=1;break;case
+af=function(b,a){return bs},m=af,h=b[2],l=b[1];f=1;break;case
 4:var
-aj=function(b,a){return cr},m=aj,h=b[2],l=b[1];f=1;break;case
+aj=function(b,a){return cu},m=aj,h=b[2],l=b[1];f=1;break;case
 5:var
 ak=function(b,a){return eN},u=ak,i=b[1];f=2;break;case
 6:var
 v=b[2],w=b[1],x=w[1][1],ab=0;if(x){var
 y=v[1][1],ao=x[1];if(y){var
-ap=y[1],aq=w[1],N=function(a){return bN(aq,a)},ar=v[1],O=function(a){return bN(ar,a)},m=function(c,b,e,d){var
-f=bq(a,ao,d),g=br(bq(a,ap,e),f),h=O(c),i=cT(a,N(b),h),j=O(b);return br(br(cT(a,N(c),j),i),g)},h=v,l=w;f=1;ab=1}else
+ap=y[1],aq=w[1],N=function(a){return bQ(aq,a)},ar=v[1],O=function(a){return bQ(ar,a)},m=function(c,b,e,d){var
+f=br(a,ao,d),g=bs(br(a,ap,e),f),h=O(c),i=cW(a,N(b),h),j=O(b);return bs(bs(cW(a,N(c),j),i),g)},h=v,l=w;f=1;ab=1}else
 var
 P=y}else
 var
@@ -2591,9 +2645,9 @@ P=x;if(!ab)var
 d=P;break;case
 7:var
 z=b[2],A=g[1],ac=0;if(A){var
-B=z[1][1],as=A[1];if(B){var
-au=B[1],Q=function(a){return bN(g,a)},av=z[1],R=function(a){return bN(av,a)},aw=function(c,b,e,d){var
-f=R(b),g=cT(a,Q(c),f),h=bq(a,as,d),i=R(c);return dX(a,au,cr(cr(e,br(cT(a,Q(b),i),h)),g))},m=aw,h=z,l=b[1];f=1;ac=1}else
+B=z[1][1],at=A[1];if(B){var
+au=B[1],Q=function(a){return bQ(g,a)},av=z[1],R=function(a){return bQ(av,a)},aw=function(c,b,e,d){var
+f=R(b),g=cW(a,Q(c),f),h=br(a,at,d),i=R(c);return d0(a,au,cu(cu(e,bs(cW(a,Q(b),i),h)),g))},m=aw,h=z,l=b[1];f=1;ac=1}else
 var
 S=B}else
 var
@@ -2602,23 +2656,23 @@ d=S;break;case
 8:var
 C=b[1],D=C[1][1];if(D){var
 ax=D[1],u=function(d,c,b){var
-e=bq(a,ax,b),f=br(nI(a,C[1],d,c),e);return bq(a,dh(a),f)},i=C;f=2}else
+e=br(a,ax,b),f=bs(nL(a,C[1],d,c),e);return br(a,dl(a),f)},i=C;f=2}else
 var
 d=D;break;case
 9:var
 E=g[1];if(E){var
-ay=E[1],az=aG(a,dh(a),ay),aA=function(d,c,b){var
-e=nI(a,g,d,c);return dX(a,az,cr(b,bq(a,dh(a),e)))},u=aA,i=b[1];f=2}else
+ay=E[1],az=aI(a,dl(a),ay),aA=function(d,c,b){var
+e=nL(a,g,d,c);return d0(a,az,cu(b,br(a,dl(a),e)))},u=aA,i=b[1];f=2}else
 var
 d=E;break;case
 10:var
 F=b[4],G=b[3],H=b[2],T=b[1],I=H[1][1],M=0;if(I){var
 n=I[1],J=G[1][1],ad=0;if(J){var
 o=J[1],K=F[1][1],ae=0;if(K){var
-L=je(a,n,o,K[1]);if(L){var
-U=L[1],j=U[2],k=U[1],c=function(b,c){return bq(a,b,c)},p=dh(a),aB=H[1],q=function(a){return bN(aB,a)},aC=G[1],r=function(a){return bN(aC,a)},aD=F[1],V=bf(n,k),W=bf(o,j),aE=aG(a,n,j),X=aG(a,p,bf(aG(a,o,k),aE)),Y=function(a){var
-d=bN(aD,a),b=c(W,r(a));return cr(c(p,br(c(V,q(a)),b)),d)},Z=function(d,b){return dX(a,X,c(d,Y(b)))},aF=dP(j),aH=F[2],aI=G[2],aJ=H[2],d=hd(function(d,b,l,i,h){var
-f=Z(aF,b),e=Z(k,b),m=c(W,i),s=r(d),t=br(cT(a,cr(r(b),e),s),m),u=c(V,l),v=q(d),w=cr(c(p,br(br(cT(a,cr(q(b),f),v),u),t)),h),x=c(n,e),y=br(c(j,q(b)),x),z=c(o,f),A=c(p,cr(br(c(k,r(b)),z),y)),B=cT(a,bN(g,d),A),C=T?k:dP(j),D=c(C,w),E=Y(d),F=T?f:eN(e);return dX(a,X,cr(br(cT(a,F,E),D),B))},t,aJ,aI,aH);ad=1;ae=1}else
+L=jq(a,n,o,K[1]);if(L){var
+U=L[1],j=U[2],k=U[1],c=function(b,c){return br(a,b,c)},p=dl(a),aB=H[1],q=function(a){return bQ(aB,a)},aC=G[1],r=function(a){return bQ(aC,a)},aD=F[1],V=bg(n,k),W=bg(o,j),aE=aI(a,n,j),X=aI(a,p,bg(aI(a,o,k),aE)),Y=function(a){var
+d=bQ(aD,a),b=c(W,r(a));return cu(c(p,bs(c(V,q(a)),b)),d)},Z=function(d,b){return d0(a,X,c(d,Y(b)))},aF=dT(j),aG=F[2],aH=G[2],aJ=H[2],d=hm(function(d,b,l,i,h){var
+f=Z(aF,b),e=Z(k,b),m=c(W,i),s=r(d),t=bs(cW(a,cu(r(b),e),s),m),u=c(V,l),v=q(d),w=cu(c(p,bs(bs(cW(a,cu(q(b),f),v),u),t)),h),x=c(n,e),y=bs(c(j,q(b)),x),z=c(o,f),A=c(p,cu(bs(c(k,r(b)),z),y)),B=cW(a,bQ(g,d),A),C=T?k:dT(j),D=c(C,w),E=Y(d),F=T?f:eN(e);return d0(a,X,cu(bs(cW(a,F,E),D),B))},t,aJ,aH,aG);ad=1;ae=1}else
 var
 _=L}else
 var
@@ -2631,35 +2685,35 @@ aa=I;M=1}if(M)var
 d=aa;break;default:var
 d=e(function(a){return 0},t)}switch(f){case
 1:var
-ag=h[2],ah=h[2],ai=l[2],d=hd(function(d,c,b,a,e){return gp(m,d,c,b,a)},t,ai,ah,ag);break;case
+ag=h[2],ah=h[2],ai=l[2],d=hm(function(d,c,b,a,e){return gx(m,d,c,b,a)},t,ai,ah,ag);break;case
 2:var
-al=i[2],am=i[2],an=i[2],d=hd(function(c,b,a,e,d){return fd(u,c,b,a)},t,an,am,al);break}return[0,g,d]},d,i);return function(h){var
-i=r(h,u,ve),j=r(h,n,0);if(j){var
+al=i[2],am=i[2],an=i[2],d=hm(function(c,b,a,e,d){return fi(u,c,b,a)},t,an,am,al);break}return[0,g,d]},d,i);return function(h){var
+i=q(h,u,vu),j=q(h,n,0);if(j){var
 d=i[1];if(d)var
-k=r(h,v,vf),o=aB(0,f(ju(b,c))),p=e(function(a){return r(a,k[2],nH)},o),q=aB(0,f(b)),a=nL(g(e(function(a){var
-d=hc(nJ(b,a),c)?i:k[1];return bN(d,a)},q),p)),s=a?[0,[0,d[1],a[1]]]:a,l=s;else
+k=q(h,v,vv),o=aA(0,f(jB(b,c))),p=e(function(a){return q(a,k[2],nK)},o),r=aA(0,f(b)),a=nO(g(e(function(a){var
+d=fN(nM(b,a),c)?i:k[1];return bQ(d,a)},r),p)),s=a?[0,[0,d[1],a[1]]]:a,l=s;else
 var
 l=d;var
 m=l}else
 var
 m=j;return m}}var
-l=c$(0,b4(a,s,j),d,i),m=e(at,b),o=e(ad,h),p=c$(vi,function(b){return jn(a,s,o,m,b)},d,i);return function(d){var
-e=r(d,n,0);if(e){var
-a=r(d,l,0);if(a)var
-c=nG(0,b,r(d,p,vd)),h=c?[0,[0,a[1],c[1]]]:c,f=h;else
+l=db(0,b7(a,s,j),d,i),m=e(as,b),o=e(_,h),p=db(vy,function(b){return jy(a,s,o,m,b)},d,i);return function(d){var
+e=q(d,n,0);if(e){var
+a=q(d,l,0);if(a)var
+c=nJ(0,b,q(d,p,vt)),h=c?[0,[0,a[1],c[1]]]:c,f=h;else
 var
 f=a;var
 g=f}else
 var
 g=e;return g}}function
-jF(a,c){var
-b=l(function(a){return hc(a,e(at,c))},a);return b?fI(a):b}function
-hj(j,b,a){if(a){var
-k=a[1],l=k[2],c=ac(e(b,k[1]));if(c){var
+hu(a,c){var
+b=l(function(a){return fN(a,e(as,c))},a);return b?eT(a):b}function
+fR(j,b,a){if(a){var
+k=a[1],l=k[2],c=ad(e(b,k[1]));if(c){var
 f=h(b,l);if(f){var
-g=r(l,j,0);if(g){var
-i=hj(j,b,a[2]);if(i)var
-m=K(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],i[1]]]:m;else
+g=q(l,j,0);if(g){var
+i=fR(j,b,a[2]);if(i)var
+m=I(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],i[1]]]:m;else
 var
 n=i;var
 o=n}else
@@ -2668,240 +2722,329 @@ o=g;var
 p=o}else
 var
 p=f;var
-q=p}else
+r=p}else
 var
-q=c;return q}return vj}function
-nV(c,Q,j,aJ,y,x,q,P,O,g,b,o,w,a){var
-i=f(P),aK=dU(0,P),aL=cO(fH(j,aJ,y,g,b),Q),aM=jv(c,o,w,x),S=jE(c,Q,x,q,aK,aL,o,w);function
-z(a){return e(function(a){return J(c,a)},a)}var
-aN=O?O[1]:ad(u);function
-T(a){return a?a1(c,i,a[1]):a}function
+r=c;return r}return vz}function
+n5(c,S,j,aJ,y,x,q,R,P,g,b,o,w,a){var
+i=f(R),aK=dj(0,R),aL=cp(fQ(j,aJ,y,g,b),S),aM=hn(c,o,w,x),T=ht(c,S,x,q,aK,aL,o,w);function
+A(a){return e(function(a){return L(c,a)},a)}var
+aN=P?P[1]:_(t);function
+V(a){return a?aX(c,i,a[1]):a}function
 r(f,e,d,b,a){var
-g=ab([0,$(e),0],i);return T(js(c,z(f),d,b,a,g))}function
-U(d,b,a){var
-e=ab([0,b,0],i);return T(nB(c,z(d),a,e))}var
-aO=e(at,o),W=l(function(a){return aF(a,f(x))},aO),X=W?fI(e(at,o)):W;if(X)var
-Y=jF(w,o),B=Y?l(function(a){return n(f(a),i)},a):Y;else
+g=$([0,Q(e),0],i);return V(jA(c,A(f),d,b,a,g))}function
+W(d,b,a){var
+e=$([0,b,0],i);return V(nE(c,A(d),a,e))}var
+aO=e(as,o),X=l(function(a){return aF(a,f(x))},aO),Y=X?eT(e(as,o)):X;if(Y)var
+Z=hu(w,o),C=Z?l(function(a){return m(f(a),i)},a):Z;else
 var
-B=X;if(B){var
+C=Y;if(C){var
 v=0;switch(g[0]){case
 0:var
-D=g[1],M=0;if(typeof
+E=g[1],M=0;if(typeof
 b!=="number")switch(b[0]){case
 0:var
-av=0;if(a){if(a[2])return 0;var
-aP=a[1],aQ=b[2],aS=b[1],Z=dk(y,q);if(Z){var
-m=function(c,a){var
-b=A(D,a);return function(a){return r(aP,b,aS,aQ,a)}},k=j;M=1;av=1}else
-var
-ac=Z}else
-var
-ac=a;if(!av)return ac;break;case
-2:var
 aw=0;if(a){if(a[2])return 0;var
-aU=a[1],aV=b[2],aW=b[1],ae=dk(y,q),ax=0;if(ae){var
-af=L(D[1],d),ag=af?L(D[2],d):af;if(ag){var
-m=function(c,b,a){return r(aU,b,aW,aV,e(nA,a))},k=j;M=1;aw=1;ax=1}else
+aP=a[1],aQ=b[2],aR=b[1],aa=dp(y,q);if(aa){var
+n=function(c,a){var
+b=z(E,a);return function(a){return r(aP,b,aR,aQ,a)}},k=j;M=1;aw=1}else
+var
+ad=aa}else
+var
+ad=a;if(!aw)return ad;break;case
+2:var
+ax=0;if(a){if(a[2])return 0;var
+aU=a[1],aW=b[2],aY=b[1],ae=dp(y,q),ay=0;if(ae){var
+af=H(E[1],d),ag=af?H(E[2],d):af;if(ag){var
+n=function(c,b,a){return r(aU,b,aY,aW,e(nD,a))},k=j;M=1;ax=1;ay=1}else
 var
 ah=ag}else
 var
-ah=ae;if(!ax)var
+ah=ae;if(!ay)var
 ai=ah}else
 var
-ai=a;if(!aw)return ai;break}if(!M)return 0;break;case
+ai=a;if(!ax)return ai;break}if(!M)return 0;break;case
 1:var
-ay=0,aX=g[1];if(typeof
-b==="number"&&!b){if(!a)return a;if(a[2])return 0;var
-aY=a[1],m=function(c,a){var
-b=C(aX,a);return function(a){return U(aY,b,a)}},k=j;ay=1}if(!ay)return 0;break;case
-2:var
 az=0,aZ=g[1];if(typeof
-b==="number"||!(3===b[0]))az=1;else{var
-aA=0;if(a){var
-s=a[2],aC=0;if(s){if(s[2])return 0;var
-aj=b[1],a0=s[1],a2=a[1],a3=b[2],ak=jD(c,aj,b[3]),al=jm(i,ak);if(al){var
-m=function(f,b,a){var
-d=aH(f,ak),e=r(a2,A(d,b),aj,a3,a);return e?U(a0,C(t(c,aZ,d),b),a):e},k=j;aA=1;aC=1}else
+b==="number"&&!b){if(!a)return a;if(a[2])return 0;var
+a0=a[1],n=function(c,a){var
+b=B(aZ,a);return function(a){return W(a0,b,a)}},k=j;az=1}if(!az)return 0;break;case
+2:var
+aB=0,a1=g[1];if(typeof
+b==="number"||!(3===b[0]))aB=1;else{var
+aC=0;if(a){var
+u=a[2],aD=0;if(u){if(u[2])return 0;var
+aj=b[1],a2=u[1],a3=a[1],a4=b[2],ak=jK(c,aj,b[3]),al=hf(i,ak);if(al){var
+n=function(f,b,a){var
+d=av(f,ak),e=r(a3,z(d,b),aj,a4,a);return e?W(a2,B(s(c,a1,d),b),a):e},k=j;aC=1;aD=1}else
 var
-am=al}else
+ao=al}else
 var
-am=s;if(!aC)var
-an=am}else
+ao=u;if(!aD)var
+ap=ao}else
 var
-an=a;if(!aA)return an}if(az)return 0;break;case
+ap=a;if(!aC)return ap}if(aB)return 0;break;case
 3:var
-aD=0;if(typeof
+aE=0;if(typeof
 b==="number"&&!b){if(a)return 0;var
-H=g[1];v=1}else
-aD=1;if(aD)return 0;break;case
+I=g[1];v=1}else
+aE=1;if(aE)return 0;break;case
 4:var
-aE=0,a5=g[2];if(typeof
-b==="number"||!(0===b[0]))aE=1;else{if(!a)return a;if(a[2])return 0;var
-a6=a[1],a7=b[2],a8=b[1],a9=function(c,a){var
-b=A(a5,a);return function(a){return r(a6,b,a8,a7,a)}},m=a9,k=g[1]}if(aE)return 0;break;case
+aG=0,a6=g[2];if(typeof
+b==="number"||!(0===b[0]))aG=1;else{if(!a)return a;if(a[2])return 0;var
+a7=a[1],a8=b[2],a_=b[1],ba=function(c,a){var
+b=z(a6,a);return function(a){return r(a7,b,a_,a8,a)}},n=ba,k=g[1]}if(aG)return 0;break;case
 5:var
-N=0;if(typeof
+O=0;if(typeof
 b==="number"&&!(3<=b))switch(b){case
 0:if(a)return 0;var
-H=g[1];v=1;break;case
+I=g[1];v=1;break;case
 2:if(a)return 0;var
-H=g[2];v=1;break;default:N=1}else
-N=1;if(N)return 0;break;case
+I=g[2];v=1;break;default:O=1}else
+O=1;if(O)return 0;break;case
 7:var
-ao=g[2],ap=g[1],aG=0;if(typeof
-b==="number"||!(0===b[0]))aG=1;else{var
+aq=g[2],ar=g[1],aH=0;if(typeof
+b==="number"||!(0===b[0]))aH=1;else{var
 aI=0;if(a){if(a[2])return 0;var
-p=b[2],K=b[1],a_=a[1],ar=n(f(j),i);if(ar){var
-m=function(a,x){var
-y=z(a_);return function(g){var
-k=n(f(g),i),l=k?n(f(p),i):k;if(l){var
-s=e(at,g),u=dV(K,dW(K,p,cq(c),s)),v=a$(g$(c,ap,ao,x,e(at,g)),u),a=0,b=g,h=v,w=f(p);for(;;){if(b){var
-o=b[1][2],q=n(a,ap),r=e(function(g,h){return function(d){var
-a=V(aB(0,f(p)),p);return e(function(a){var
-b=nD(K,a[2],d[1]);if(h&&n(a[1],g))return C(b,au(t(c,ao,d[2])));return b},a)}}(a,q),o),j=fD(c,y,nC(c,a,w),r,h);if(j){var
+p=b[2],K=b[1],bb=a[1],at=m(f(j),i);if(at){var
+n=function(a,x){var
+y=A(bb);return function(g){var
+k=m(f(g),i),l=k?m(f(p),i):k;if(l){var
+t=e(as,g),u=dY(K,dZ(K,p,a$(c),t)),v=aV(hi(c,ar,aq,x,e(as,g)),u),a=0,b=g,h=v,w=f(p);for(;;){if(b){var
+o=b[1][2],q=m(a,ar),r=e(function(g,h){return function(d){var
+a=N(aA(0,f(p)),p);return e(function(a){var
+b=nG(K,a[2],d[1]);if(h&&m(a[1],g))return B(b,an(s(c,aq,d[2])));return b},a)}}(a,q),o),j=fM(c,y,nF(c,a,w),r,h);if(j){var
 a=[0,a],b=b[2],h=j[1];continue}var
 d=j}else
 var
-d=[0,h];if(d)return a1(c,i,d[1]);var
-m=d;break}}else
+d=[0,h];if(d)return aX(c,i,d[1]);var
+n=d;break}}else
 var
-m=l;return m}},k=j;aI=1}else
+n=l;return n}},k=j;aI=1}else
 var
-as=ar}else
+au=at}else
 var
-as=a;if(!aI)return as}if(aG)return 0;break;default:return 0}if(v){var
-I=h(S,H);if(!I)return I;var
-a4=function(b,f,a){return l(function(a){var
-b=f[2],c=a[2],e=aq(function(b,a){return G(bv(d,R(b[2][1])),a)},d,c);return F(d,aR(aR(a[1][2][1],e),b))},a)},aa=a4,_=[0,[0,0,I[1]],0]}else{var
-E=hj(q,S,k);if(!E)return E;var
-aa=m,_=E[1]}var
-aT=ba(i);return l(function(a){var
-b=e(function(b){return hb(c,a,aM,b)},_);return fd(aa,a,aH(a,aN),b)},aT)}return B}function
-jG(j,a){var
-f=aq(function(b,a){return bv(cG(b),a)},d,a);function
-g(a){if(a){if(L(cG(a[1]),f))return 0;var
+au=a;if(!aI)return au}if(aH)return 0;break;default:return 0}if(v){var
+J=h(T,I);if(!J)return J;var
+a5=function(b,f,a){return l(function(a){var
+b=f[2],c=a[2],e=am(function(b,a){return G(bw(d,U(b[2][1])),a)},d,c);return D(d,aT(aT(a[1][2][1],e),b))},a)},ac=a5,ab=[0,[0,0,J[1]],0]}else{var
+F=fR(q,T,k);if(!F)return F;var
+ac=n,ab=F[1]}var
+aS=a9(i);return l(function(a){var
+b=e(function(b){return hl(c,a,aM,b)},ab);return fi(ac,a,av(a,aN),b)},aS)}return C}function
+jL(j,a){var
+f=am(function(b,a){return bw(cK(b),a)},d,a);function
+g(a){if(a){if(H(cK(a[1]),f))return 0;var
 b=[0,g(a[2])]}else
 var
 b=a;return b}var
-h=g(a);if(L(f,d)){var
-k=e(function(a){return u},a),l=a?[0,b,a[2]]:a;return[0,[0,[0,0,l],d],k]}var
-i=i5(G(mA(f),b)),m=e(function(a){return u},a);return[0,[0,[0,h,a],i],di(u,h,J(j,cj(c(2,b),i)),m)]}function
-hk(g,O,o,an,w,v,m,N,M,h,a,k,t,am,K,al,H,G){var
-i=f(N),ao=dU(0,N),ap=cO(fH(o,an,w,h,a),O),aq=jv(g,k,t,v),ar=jE(g,O,v,m,ao,ap,k,t),au=M?M[1]:ad(u),P=jG(g,am),Q=P[1],R=Q[1],x=R[2],j=R[1],S=P[2],av=Q[2],p=e(function(a){return aS(a,av,J(g,b))},x);function
-T(a){return jy(g,j,p,K,al,H,G,jx(g,j,p,i,a,0))}function
-U(a){return a?a1(g,i,a[1]):a}function
-y(d,c,b,a){return U(jz(g,j,p,S,c,b,a,T($(d))))}var
-aw=e(at,k),V=l(function(a){return aF(a,f(v))},aw),W=V?fI(e(at,k)):V,X=W?n(f(x),i):W;if(X)var
-Y=jF(t,k),z=Y?n(f(K),i):Y;else
+h=g(a);if(H(f,d)){var
+k=e(function(a){return t},a),l=a?[0,b,a[2]]:a;return[0,[0,[0,0,l],d],k]}var
+i=jg(G(mD(f),b)),m=e(function(a){return t},a);return[0,[0,[0,h,a],i],dm(t,h,L(j,cm(c(2,b),i)),m)]}function
+hv(g,O,o,an,w,v,n,N,M,h,a,k,u,am,K,al,I,G){var
+i=f(N),ao=dj(0,N),ap=cp(fQ(o,an,w,h,a),O),aq=hn(g,k,u,v),ar=ht(g,O,v,n,ao,ap,k,u),au=M?M[1]:_(t),P=jL(g,am),R=P[1],S=R[1],x=S[2],j=S[1],T=P[2],aw=R[2],p=e(function(a){return aH(a,aw,L(g,b))},x);function
+U(a){return jE(g,j,p,K,al,I,G,jD(g,j,p,i,a,0))}function
+V(a){return a?aX(g,i,a[1]):a}function
+y(d,c,b,a){return V(jF(g,j,p,T,c,b,a,U(Q(d))))}var
+ax=e(as,k),W=l(function(a){return aF(a,f(v))},ax),X=W?eT(e(as,k)):W,Y=X?m(f(x),i):X;if(Y)var
+Z=hu(u,k),A=Z?m(f(K),i):Z;else
 var
-z=X;var
-Z=z?F(d,H):z,_=Z?gU(G,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Z,aa=_?aF(j,i):_,ab=aa?I(L(r(j,x,d),d)):aa;if(ab){switch(h[0]){case
+A=Y;var
+$=A?D(d,I):A,aa=$?g2(G,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):$,ab=aa?aF(j,i):aa,ac=ab?J(H(q(j,x,d),d)):ab;if(ac){switch(h[0]){case
 0:var
-B=h[1],E=0;if(typeof
-a==="number")E=1;else
+C=h[1],F=0;if(typeof
+a==="number")F=1;else
 switch(a[0]){case
 0:var
-ax=a[2],ay=a[1],ac=dk(w,m);if(!ac)return ac;var
+ay=a[2],az=a[1],ad=dp(w,n);if(!ad)return ad;var
 s=function(a){var
-b=A(B,a);return function(a){return y(b,ay,ax,a)}},q=o;break;case
+b=z(C,a);return function(a){return y(b,az,ay,a)}},r=o;break;case
 2:var
-aB=a[2],aC=a[1],ae=dk(w,m),ai=0;if(ae){var
-af=L(B[1],d),ag=af?L(B[2],d):af;if(ag){var
-s=function(b,a){return y(b,aC,aB,e(nA,a))},q=o;ai=1}else
+aC=a[2],aD=a[1],ae=dp(w,n),ai=0;if(ae){var
+af=H(C[1],d),ag=af?H(C[2],d):af;if(ag){var
+s=function(b,a){return y(b,aD,aC,e(nD,a))},r=o;ai=1}else
 var
 ah=ag}else
 var
-ah=ae;if(!ai)return ah;break;default:E=1}if(E)return 0;break;case
+ah=ae;if(!ai)return ah;break;default:F=1}if(F)return 0;break;case
 1:var
-aj=0,aD=h[1];if(typeof
+aj=0,aE=h[1];if(typeof
 a==="number"&&!a)var
 s=function(a){var
-b=C(aD,a);return function(a){return U(nQ(g,j,p,S,a,T(b)))}},q=o;else
+b=B(aE,a);return function(a){return V(nT(g,j,p,T,a,U(b)))}},r=o;else
 aj=1;if(aj)return 0;break;case
 4:var
-ak=0,aE=h[2];if(typeof
+ak=0,aG=h[2];if(typeof
 a==="number"||!(0===a[0]))ak=1;else
 var
-aG=a[2],aI=a[1],aJ=function(a){var
-b=A(aE,a);return function(a){return y(b,aI,aG,a)}},s=aJ,q=h[1];if(ak)return 0;break;default:return 0}var
-D=hj(m,ar,q);if(D){var
-az=D[1],aA=ba(i);return l(function(a){var
-b=e(function(b){return hb(g,a,aq,b)},az);return as(s,aH(a,au),b)},aA)}return D}return ab}function
-nW(s,r,q,p,o,n,E,m,c,l,k,j,i,g,a){var
+aI=a[2],aJ=a[1],aK=function(a){var
+b=z(aG,a);return function(a){return y(b,aJ,aI,a)}},s=aK,r=h[1];if(ak)return 0;break;default:return 0}var
+E=fR(n,ar,r);if(E){var
+aA=E[1],aB=a9(i);return l(function(a){var
+b=e(function(b){return hl(g,a,aq,b)},aA);return at(s,av(a,au),b)},aB)}return E}return ac}function
+n6(s,r,q,p,o,n,F,m,c,l,k,j,i,g,a){var
 w=e(function(a){return d},c),v=0;if(typeof
 a!=="number")switch(a[0]){case
 5:var
-G=a[1],H=function(a){return hk(s,r,q,p,o,n,m,c,a,l,G,0,0,w,k,j,i,g)},y=H,x=a[3],t=a[2];v=1;break;case
+G=a[1],H=function(a){return hv(s,r,q,p,o,n,m,c,a,l,G,0,0,w,k,j,i,g)},y=H,x=a[3],t=a[2];v=1;break;case
 10:var
-b=a[4],B=a[3],C=a[2],f=a[1],D=0;if(typeof
+b=a[4],B=a[3],C=a[2],f=a[1],E=0;if(typeof
 f!=="number"&&5===f[0]){if(!b)return b;if(b[2])return 0;var
-I=b[1],J=f[1],K=function(a){return hk(s,r,q,p,o,n,m,c,a,l,J,C,B,I,k,j,i,g)},y=K,x=f[3],t=f[2];v=1;D=1}if(!D)return b?b[2]?0:hk(s,r,q,p,o,n,m,c,0,l,f,C,B,b[1],k,j,i,g):b;break}if(v){var
-u=h(E,c);if(u){var
-z=F(d,t);if(z)return y([0,g8(t,x,u[1])]);var
+I=b[1],J=f[1],K=function(a){return hv(s,r,q,p,o,n,m,c,a,l,J,C,B,I,k,j,i,g)},y=K,x=f[3],t=f[2];v=1;E=1}if(!E)return b?b[2]?0:hv(s,r,q,p,o,n,m,c,0,l,f,C,B,b[1],k,j,i,g):b;break}if(v){var
+u=h(F,c);if(u){var
+z=D(d,t);if(z)return y([0,fI(t,x,u[1])]);var
 A=z}else
 var
-A=u;return A}return hk(s,r,q,p,o,n,m,c,0,l,a,0,0,w,k,j,i,g)}function
-nX(a,al,ak,x,H,aj,q,p,ai,ah,i){function
-k(am,g,j,y,z){var
-h=f(q),as=dU(0,q),au=cO(dl(ak),al),av=jv(a,j,y,x),aw=jE(a,al,x,aj,as,au,j,y),ax=am?am[1]:ad(u);function
-k(b){return b?a1(a,h,b[1]):b}function
-D(b,a){return $(A(aH(b,ai),a))}function
-E(d,c,b){return C(t(a,d,aH(c,ai)),b)}var
-ay=e(at,j),G=l(function(a){return aF(a,f(x))},ay),H=G?fI(e(at,j)):G;if(H)var
-K=jF(y,j),s=K?n(f(z),h):K;else
+A=u;return A}return hv(s,r,q,p,o,n,m,c,0,l,a,0,0,w,k,j,i,g)}function
+n7(a,al,ak,x,I,aj,r,p,ai,ah,i){function
+k(am,g,j,y,A){var
+h=f(r),at=dj(0,r),au=cp(cv(ak),al),aw=hn(a,j,y,x),ax=ht(a,al,x,aj,at,au,j,y),ay=am?am[1]:_(t);function
+k(b){return b?aX(a,h,b[1]):b}function
+E(b,a){return Q(z(av(b,ai),a))}function
+F(d,c,b){return B(s(a,d,av(c,ai)),b)}var
+az=e(as,j),G=l(function(a){return aF(a,f(x))},az),I=G?eT(e(as,j)):G;if(I)var
+K=hu(y,j),u=K?m(f(A),h):K;else
 var
-s=H;if(s){var
+u=I;if(u){var
 an=0;if(ah){var
-M=ah[1],N=M[1],O=N[1],P=O[1],Q=N[2],R=M[2],az=O[2],S=jG(a,z),T=S[1],U=T[1],v=U[2],i=U[1],V=S[2],aA=T[2],m=e(function(c){return aS(c,aA,J(a,b))},v),W=function(b){return jy(a,i,m,P,az,Q,R,jx(a,i,m,h,b,0))},X=n(f(v),h),Y=X?n(f(P),h):X,Z=Y?F(d,Q):Y,_=Z?gU(R,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Z,aa=_?aF(i,h):_,ac=aa?I(L(r(i,v,d),d)):aa,B=0;if(ac)if(p){var
-ao=0,aB=p[1];if(typeof
+M=ah[1],N=M[1],O=N[1],P=O[1],R=N[2],S=M[2],aA=O[2],T=jL(a,A),U=T[1],V=U[1],v=V[2],i=V[1],W=T[2],aB=U[2],n=e(function(c){return aH(c,aB,L(a,b))},v),X=function(b){return jE(a,i,n,P,aA,R,S,jD(a,i,n,h,b,0))},Y=m(f(v),h),Z=Y?m(f(P),h):Y,aa=Z?D(d,R):Z,ab=aa?g2(S,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):aa,ac=ab?aF(i,h):ab,ad=ac?J(H(q(i,v,d),d)):ac,C=0;if(ad)if(p){var
+ao=0,aC=p[1];if(typeof
 g==="number"&&!g){var
-o=function(d,c,b){return k(nQ(a,i,m,V,b,W(E(aB,d,c))))};B=1;ao=1}if(!ao)return 0}else{var
+o=function(d,c,b){return k(nT(a,i,n,W,b,X(F(aC,d,c))))};C=1;ao=1}if(!ao)return 0}else{var
 ap=0;if(typeof
 g!=="number"&&0===g[0]){var
-aE=g[2],aG=g[1],o=function(d,c,b){return k(jz(a,i,m,V,aG,aE,b,W(D(d,c))))};B=1;ap=1}if(!ap)var
+aG=g[2],aI=g[1],o=function(d,c,b){return k(jF(a,i,n,W,aI,aG,b,X(E(d,c))))};C=1;ap=1}if(!ap)var
 ae=0}else
 var
-ae=ac;if(!B)return ae}else{var
-af=e(function(b){return J(a,b)},z);if(p){var
-aq=0,aI=p[1];if(typeof
+ae=ad;if(!C)return ae}else{var
+af=e(function(b){return L(a,b)},A);if(p){var
+aq=0,aJ=p[1];if(typeof
 g==="number"&&!g){var
-o=function(d,c,b){return k(nB(a,af,b,ab([0,E(aI,d,c),0],h)))};aq=1}if(!aq)return 0}else{var
+o=function(d,c,b){return k(nE(a,af,b,$([0,F(aJ,d,c),0],h)))};aq=1}if(!aq)return 0}else{var
 ar=0;if(typeof
 g==="number"||!(0===g[0]))ar=1;else
 var
-aJ=g[2],aK=g[1],o=function(d,c,b){return k(js(a,af,aK,aJ,b,ab([0,D(d,c),0],h)))};if(ar){var
+aK=g[2],aL=g[1],o=function(d,c,b){return k(jA(a,af,aL,aK,b,$([0,E(d,c),0],h)))};if(ar){var
 ag=0;an=1}}}if(!an){var
-w=hj(aj,aw,ak);if(w){var
-aC=w[1],aD=ba(h);return l(function(b){var
-c=e(function(c){return hb(a,b,av,c)},aC);return o(b,aH(b,ax),c)},aD)}return w}}else
+w=fR(aj,ax,ak);if(w){var
+aD=w[1],aE=a9(h);return l(function(b){var
+c=e(function(c){return hl(a,b,aw,c)},aD);return o(b,av(b,ay),c)},aE)}return w}}else
 var
-ag=s;return ag}var
-y=e(function(a){return d},q),w=0;if(typeof
+ag=u;return ag}var
+y=e(function(a){return d},r),w=0;if(typeof
 i!=="number")switch(i[0]){case
 5:var
-K=i[1],M=function(a){return k(a,K,0,0,y)},B=M,z=i[3],m=i[2];w=1;break;case
+K=i[1],M=function(a){return k(a,K,0,0,y)},C=M,A=i[3],n=i[2];w=1;break;case
 10:var
-g=i[4],s=i[3],v=i[2],j=i[1],G=0;if(typeof
+g=i[4],u=i[3],v=i[2],j=i[1],G=0;if(typeof
 j!=="number")switch(j[0]){case
 5:if(!g)return g;if(g[2])return 0;var
-N=g[1],O=j[1],P=function(a){return k(a,O,v,s,N)},B=P,z=j[3],m=j[2];w=1;G=1;break;case
+N=g[1],O=j[1],P=function(a){return k(a,O,v,u,N)},C=P,A=j[3],n=j[2];w=1;G=1;break;case
 3:case
 7:case
 9:case
 10:case
 11:case
-13:return g?g[2]?0:k(0,j,v,s,g[1]):g}if(!G)return g?g[2]?0:k(0,j,v,s,g[1]):g;break}if(w){var
-o=h(H,q);if(o){var
-D=F(d,m);if(D)return B([0,g8(m,z,o[1])]);var
-E=D}else
+13:return g?g[2]?0:k(0,j,v,u,g[1]):g}if(!G)return g?g[2]?0:k(0,j,v,u,g[1]):g;break}if(w){var
+o=h(I,r);if(o){var
+E=D(d,n);if(E)return C([0,fI(n,A,o[1])]);var
+F=E}else
 var
-E=o;return E}return k(0,i,0,0,y)}function
-nY(m,l,k,j,i,g,p,f,b,e,a){if(typeof
+F=o;return F}return k(0,i,0,0,y)}function
+n8(a,aa,x,r,R,Z,p,w,ax,Y,v,g){function
+j(ab,i,h,y,g){var
+j=f(p),af=dj(0,p),ah=cp(cv(x),aa),ai=hn(a,h,y,r),aj=ht(a,aa,r,Z,af,ah,h,y),ak=ab?ab[1]:_(t),C=jx(ax,_(nZ(Y,hk(h,0,r),v))),D=e(function(a){return e(function(b){var
+c=b[1];return am(function(b,a){return m(b[1],c)?G(b[2],a):a},d,a)},h)},v);function
+E(b){return b?aX(a,j,b[1]):b}var
+al=e(as,h),F=l(function(a){return aF(a,f(r))},al),K=F?eT(e(as,h)):F;if(K){var
+M=hu(y,h),O=M?l(function(a){return m(f(a),j)},g):M;if(O)var
+ao=f(x),k=m(f(v),ao);else
+var
+k=O}else
+var
+k=K;if(k){var
+A=0;if(w){var
+P=w[1],ac=0;if(typeof
+i==="number"&&!i){if(!g)return g;if(g[2])return 0;var
+ap=g[1],R=function(A,z,y){var
+D=$([0,B(s(a,P,av(A,C)),z),0],j),q=e(function(b){return L(a,b)},ap),c=y,f=D;for(;;){if(c){var
+k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,bA(g),h],f];if(m){var
+o=I(d,g[1]);if(o)var
+u=e(function(b){var
+c=s(a,P,b[2]),d=b[1][1];return[0,[0,an(b[1][2]),d],c]},m),v=e(function(a){return t},h),w=[0,a$(a),v],x=a$(a),b=nY(a,[0,Q(co(eP(a,h,q),x,g)),q],0,vp,w,u,n);else
+var
+b=o}else
+var
+b=[0,n];if(b){var
+i=fG(a,b[1]);if(i){var
+c=c[2],f=i[1];continue}var
+p=i}else
+var
+p=b;var
+r=p}else
+var
+r=[0,f];return E(r)}};A=1;ac=1}if(!ac)return 0}else{var
+ad=0;if(typeof
+i!=="number"&&0===i[0]){var
+ae=0;if(g){var
+n=g[2];if(n){if(n[2])return 0;var
+W=n[1],o=i[1],at=g[1],au=i[2],aw=l(function(a){return H(a,d)},W)?0:[0,e(function(d){var
+e=L(a,b);return aH(d,c(2,c(2,b)),e)},W)],R=function(t,s,r){var
+u=$([0,Q(z(av(t,C),s)),0],j),c=au,b=r,f=u,v=e(function(b){return L(a,b)},at);for(;;){if(c){if(b){var
+h=b[1],i=h[1],d=c[1],m=b5(i[2]),n=aV(f,hc(o,d,dh(o,i[1],m,d))),p=h[2],q=e(function(c){return function(a){var
+b=Q(a[2]);return[0,e(an,dh(o,a[1][1],a[1][2],c)),b]}}(d),p),g=nY(a,v,aw,0,e(function(b){return aH(b,o,a$(a))},d),q,n);if(g){var
+c=c[2],b=b[2],f=g[1];continue}var
+k=g}else
+var
+k=b;var
+l=k}else
+var
+l=b?0:[0,f];return E(l)}};A=1;ad=1;ae=1}else
+var
+X=n}else
+var
+X=g;if(!ae)return X}if(!ad)var
+V=0}if(A){var
+u=fR(Z,aj,x);if(u){var
+S=u[1],aq=N(D,S),T=l(function(a){var
+b=a[2],c=a[1],e=N(aA(0,f(c)),c);return l(function(h){var
+a=H(h[2],d);if(a)return a;var
+c=[0,b[2],b[1]];return ag(function(k){var
+l=_(t),a=q(h[1],k[2],l),b=H(a[1][1],d),c=b?H(a[1][2],d):b,e=c?H(a[2][1],d):c,f=e?H(a[2][2],d):e,j=0;if(f)if(a[3]){var
+i=0;j=1}else
+var
+g=1;else
+var
+g=f;if(!j)var
+i=g;return J(i)},c)},e)},aq);if(T){var
+ar=a9(j);return l(function(b){var
+c=N(D,S),d=e(function(f){var
+c=f[2],i=f[1];function
+d(a){return av(b,a[1])}var
+g=n0(a,Y,b,0,ai,i,c),h=d(c[2]);return[0,[0,e(d,c[1]),h],g]},c);return R(b,av(b,ak),d)},ar)}var
+U=T}else
+var
+U=u;return U}}else
+var
+V=k;return V}var
+k=e(function(a){return d},p),y=w?[0,k,0]:[0,k,[0,k,0]],u=0;if(typeof
+g!=="number")switch(g[0]){case
+5:var
+S=g[1],T=function(a){return j(a,S,0,0,y)},C=T,A=g[3],n=g[2];u=1;break;case
+10:var
+K=g[4],M=g[3],O=g[2],i=g[1],P=0;if(typeof
+i!=="number"&&5===i[0]){var
+U=i[1],V=function(a){return j(a,U,O,M,K)},C=V,A=i[3],n=i[2];u=1;P=1}if(!P)return j(0,i,O,M,K);break}if(u){var
+o=h(R,p);if(o){var
+E=D(d,n);if(E)return C([0,fI(n,A,o[1])]);var
+F=E}else
+var
+F=o;return F}return j(0,g,0,0,y)}function
+n9(m,l,k,j,i,g,p,f,b,e,a){if(typeof
 a!=="number")switch(a[0]){case
 5:var
 q=a[2],n=h(p,b);if(n){var
-r=F(d,q);if(r){var
-z=a[1];return nU(m,l,k,j,i,g,f,b,[0,g8(q,a[3],n[1])],e,z)}var
+r=D(d,q);if(r){var
+z=a[1];return n4(m,l,k,j,i,g,f,b,[0,fI(q,a[3],n[1])],e,z)}var
 s=r}else
 var
 s=n;return s;case
@@ -2909,21 +3052,21 @@ s=n;return s;case
 t=a[4],u=a[3],v=a[2],c=a[1];if(typeof
 c!=="number"&&5===c[0]){var
 w=c[2],o=h(p,b);if(o){var
-x=F(d,w);if(x){var
-A=c[1];return nV(m,l,k,j,i,g,f,b,[0,g8(w,c[3],o[1])],e,A,v,u,t)}var
+x=D(d,w);if(x){var
+A=c[1];return n5(m,l,k,j,i,g,f,b,[0,fI(w,c[3],o[1])],e,A,v,u,t)}var
 y=x}else
 var
-y=o;return y}return nV(m,l,k,j,i,g,f,b,0,e,c,v,u,t)}return nU(m,l,k,j,i,g,f,b,0,e,a)}function
-jH(a){switch(a[0]){case
+y=o;return y}return n5(m,l,k,j,i,g,f,b,0,e,c,v,u,t)}return n4(m,l,k,j,i,g,f,b,0,e,a)}function
+jM(a){switch(a[0]){case
 9:case
 10:return 0;default:return 1}}function
-jI(t,s,q,p,k,a,f,j){var
-h=jH(a),i=h?l(function(b){var
-a=r(b,bD(fE,f,k),u);return L(a[1],a[2])},j):h;return i?l(function(ao){switch(a[0]){case
+hw(u,s,r,p,k,a,f,j){var
+h=jM(a),i=h?l(function(b){var
+a=q(b,by(eR,f,k),t);return H(a[1],a[2])},j):h;return i?l(function(ao){switch(a[0]){case
 3:var
 f=[0,a[1],0];break;case
 4:var
-f=dl(a[1]);break;case
+f=cv(a[1]);break;case
 5:var
 f=[0,a[1],[0,a[2],0]];break;case
 0:case
@@ -2931,28 +3074,28 @@ f=[0,a[1],[0,a[2],0]];break;case
 2:case
 7:var
 f=0;break;default:return 0}var
-j=c_(0,function(a){switch(a[0]){case
+j=cR(0,function(a){switch(a[0]){case
 0:return[0,[0,d]];case
 1:var
-ad=a[1],ae=aj(function(a){return n(ad,a)},ao)?b:d;return[0,[0,ae]];case
+ad=a[1],ae=ag(function(a){return m(ad,a)},ao)?b:d;return[0,[0,ae]];case
 2:var
-af=L(a[1],d)?0:[0,d];return[0,af];case
+af=H(a[1],d)?0:[0,d];return[0,af];case
 3:var
 e=a[2],j=a[1];if(j){var
 z=j[1];if(z){if(e){var
 A=e[1];if(A){var
-B=z[1],C=L(B,A[1]),ag=C?[0,[0,B]]:C;return ag}var
-D=j}else
-var
-D=e;return D}return e}if(e){if(e[1])return 0;var
+B=z[1],C=H(B,A[1]),ah=C?[0,[0,B]]:C;return ah}var
 E=j}else
 var
-E=e;return E;case
+E=e;return E}return e}if(e){if(e[1])return 0;var
+F=j}else
+var
+F=e;return F;case
 4:var
 f=a[2],k=a[1];if(k){var
-H=k[1];if(H){if(f){var
-I=f[1];if(I){var
-J=H[1],K=L(J,I[1]),ah=K?[0,[0,J]]:K;return ah}var
+I=k[1];if(I){if(f){var
+J=f[1];if(J){var
+K=I[1],L=H(K,J[1]),ai=L?[0,[0,K]]:L;return ai}var
 M=k}else
 var
 M=f;return M}return f}if(f){if(f[1])return 0;var
@@ -2964,38 +3107,38 @@ N=f;return N;case
 o=a[1];if(o){var
 O=o[1],g=a[2];if(O){if(g){var
 P=g[1];if(P)return[0,[0,G(O[1],P[1])]];var
-Q=u8}else
+Q=vk}else
 var
 Q=g;return Q}var
-ai=g?u9:g,S=ai}else
+aj=g?vl:g,R=aj}else
 var
-S=o;return S;case
+R=o;return R;case
 7:var
 p=a[1];if(p){var
-T=p[1],h=a[2];if(T){if(h)var
-q=h[1],ak=q?[0,[0,aR(T[1],q[1])]]:q,U=ak;else
+S=p[1],h=a[2];if(S){if(h)var
+q=h[1],ak=q?[0,[0,aT(S[1],q[1])]]:q,T=ak;else
 var
-U=h;return U}var
-al=h?u_:h,V=al}else
+T=h;return T}var
+al=h?vm:h,V=al}else
 var
 V=p;return V;case
 8:var
 r=a[1];if(r){var
 W=r[1];if(W){var
 X=W[1];return[0,[0,G(X,X)]]}var
-Y=u$}else
+Y=vn}else
 var
 Y=r;return Y;case
 9:var
 s=a[1];if(s){var
 t=s[1];if(t){var
-i=t[1],x=aX(i);if(0===x)var
-m=1;else
+i=t[1],x=a0(i);if(0===x)var
+n=1;else
 if(0<x)var
-m=F(i,b)?0:L(aY(i,aO(2))[2],d)?1:0;else
+n=D(i,b)?0:H(a1(i,aQ(2))[2],d)?1:0;else
 var
-y=R(i),m=F(y,b)?0:L(aY(y,aO(2))[2],d)?1:0;var
-am=m?[0,[0,cK(i,c(2,b))]]:m,Z=am}else
+y=U(i),n=D(y,b)?0:H(a1(y,aQ(2))[2],d)?1:0;var
+am=n?[0,[0,cO(i,c(2,b))]]:n,Z=am}else
 var
 Z=t;var
 _=Z}else
@@ -3004,7 +3147,7 @@ _=s;return _;default:var
 u=a[2];if(u){var
 v=a[3];if(v){var
 w=a[4];if(w)var
-an=[0,u[1],[0,v[1],[0,w[1],0]]],$=l(function(a){return a?L(a[1],d):1},an),aa=$?[0,[0,d]]:$;else
+an=[0,u[1],[0,v[1],[0,w[1],0]]],$=l(function(a){return a?H(a[1],d):1},an),aa=$?[0,[0,d]]:$;else
 var
 aa=w;var
 ab=aa}else
@@ -3012,178 +3155,221 @@ var
 ab=v;var
 ac=ab}else
 var
-ac=u;return ac}},t);function
+ac=u;return ac}},u);function
 k(a){return a?a[1]:d}var
 h=e(function(a){return x(k,a)},j),i=l(function(c){var
-a=r(c,h,0),b=a?1:a;return b},p);if(i){var
-m=g(dl(q),f),o=g(dl(s),m);return l(function(c){var
-a=r(c,h,0);if(a){var
-b=aX(a[1]);return 0===b?1:0<b?0:0}return a},o)}return i},f):i}function
-jJ(j,a,i,h,g,f,e,d,c,b){var
-k=cO(fH(i,h,g,c,b),a);return jA(j,a,bD(fE,e,f),k,d)}function
-nZ(f,d,c,n,m,b,l,q,e,k,j,i,h,a){if(typeof
+a=q(c,h,0),b=a?1:a;return b},p);if(i){var
+n=g(cv(r),f),o=g(cv(s),n);return l(function(c){var
+a=q(c,h,0);if(a){var
+b=a0(a[1]);return 0===b?1:0<b?0:0}return a},o)}return i},f):i}function
+hx(j,a,i,h,g,f,e,d,c,b){var
+k=cp(fQ(i,h,g,c,b),a);return jH(j,a,by(eR,e,f),k,d)}function
+n_(f,d,c,n,m,b,l,q,e,k,j,i,h,a){if(typeof
 a!=="number"&&11===a[0]){var
-o=a[3],g=a[1],p=jI(d,c,n,m,b,k,g,a[2]);if(p){var
-r=jJ(f,d,c,n,m,b,g,e,k,o);return nX(f,d,c,bD(fE,g,b),l,r,e,j,i,h,o)}return p}return nX(f,d,c,b,l,q,e,j,i,h,a)}function
-n0(r,q,p,o,m,k,j,i,h,g,d,c,a){if(typeof
+o=a[3],g=a[1],p=hw(d,c,n,m,b,k,g,a[2]);if(p){var
+r=hx(f,d,c,n,m,b,g,e,k,o);return n7(f,d,c,by(eR,g,b),l,r,e,j,i,h,o)}return p}return n7(f,d,c,b,l,q,e,j,i,h,a)}function
+n$(r,q,p,o,n,k,j,i,h,g,d,c,a){if(typeof
 a!=="number"&&12===a[0]){var
-b=a[1],s=I(n(f(b),0));if(s){var
-t=V(jw(e(function(a){return a[1][1][1]},b)),b);return l(function(a){var
-b=a[2],e=b[1];return nZ(r,q,p,o,m,k,j,i,h,g,d,c,[0,[0,[0,[0,a[1][1],a[1][2]],e[1][2]],e[2]]],b[2])},t)}return s}return nZ(r,q,p,o,m,k,j,i,h,g,d,c,0,a)}function
-hl(b,a){if(a){var
+b=a[1],s=J(m(f(b),0));if(s){var
+t=N(jC(e(function(a){return a[1][1][1]},b)),b);return l(function(a){var
+b=a[2],e=b[1];return n_(r,q,p,o,n,k,j,i,h,g,d,c,[0,[0,[0,[0,a[1][1],a[1][2]],e[1][2]],e[2]]],b[2])},t)}return s}return n_(r,q,p,o,n,k,j,i,h,g,d,c,0,a)}function
+oa(g,f,e){var
+b=f,a=e;for(;;){if(b){if(a){var
+c=at(g,b[1],a[1]);if(c){var
+b=b[2],a=a[2];continue}var
+d=c}else
+var
+d=a;return d}return a?0:1}}function
+ob(a){if(typeof
+a!=="number"&&11===a[0])return[0,a[1]];return 0}function
+oc(g,c,b,s,r,d,p,x,f,o,n,k,j,e,a){if(typeof
+a!=="number"&&11===a[0]){var
+t=a[3],u=a[2],h=a[1],v=hw(c,b,s,r,d,o,h,u);if(v)var
+w=N(e,b),i=l(function(a){var
+b=a[1];return l(function(b){var
+d=J(fN(b[1],u));if(d)return d;var
+g=b[1],e=cR(0,function(a){switch(a[0]){case
+1:return m(a[1],g);case
+10:var
+d=a[2],e=d||a[3],f=e||a[4];return f;case
+0:case
+2:return 0;case
+5:case
+8:case
+9:return a[1];default:var
+b=a[1],c=b||a[2];return c}},c),f=cv([0,a[2],0]);return ag(function(a){return q(a,e,0)},f)},b)},w);else
+var
+i=v;if(i){var
+y=hx(g,c,b,s,r,d,h,f,o,t);return n8(g,c,b,by(eR,h,d),p,y,f,n,k,j,e,t)}return i}return n8(g,c,b,d,p,x,f,n,k,j,e,a)}function
+hy(b,a){if(a){var
 c=a[2];if(b){var
-e=hl(b[1],c);return[0,a[1],e]}var
+e=hy(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-n1(c,b,a){var
-d=V(b,a);return l(function(a){var
-b=h(c,a[1]);return b?b:I(a[2])},d)}function
-fJ(m,b,k,a,i,t,o,j,g,Z,q){switch(q[0]){case
+od(c,b,a){var
+d=N(b,a);return l(function(a){var
+b=h(c,a[1]);return b?b:J(a[2])},d)}function
+fS(n,c,k,b,i,t,o,g,a,aj,r){switch(r[0]){case
 0:var
-ae=function(a){return l(I,a)},L=ae,x=q[1];break;case
+at=function(a){return l(J,a)},S=at,A=r[1];break;case
 1:var
-af=q[4],ag=q[3],ah=q[2],ai=function(c){var
-d=dg(ah,g),e=fJ(m,b,k,a,i,t,o,j,d[1],c,ag);return e?fJ(m,b,k,a,i,t,o,j,d[2],c,af):e},L=ai,x=q[1];break;default:var
-aj=q[4],ak=q[3],al=q[2],am=function(c){var
-d=n1(jH,t,c);if(d){var
-e=dg(al,j),f=fJ(m,b,k,a,i,t,o,e[1],g,c,ak);if(f)return fJ(m,b,k,a,i,t,o,e[2],g,c,aj);var
-h=f}else
+au=r[4],aw=r[3],ax=r[2],ay=function(d){var
+e=dk(ax,a),f=fS(n,c,k,b,i,t,o,g,e[1],d,aw);return f?fS(n,c,k,b,i,t,o,g,e[2],d,au):f},S=ay,A=r[1];break;default:var
+az=r[4],aA=r[3],aB=r[2],aC=function(d){var
+e=od(jM,t,d);if(e){var
+f=dk(aB,g),h=fS(n,c,k,b,i,t,o,f[1],a,d,aA);if(h)return fS(n,c,k,b,i,t,o,f[2],a,d,az);var
+j=h}else
 var
-h=d;return h},L=am,x=q[1]}if(x){var
-A=jA(m,b,j,cO(y(function(e){var
-b=e[2],d=0;if(typeof
-b==="number"){if(4!==b)d=1}else
-if(11!==b[0])d=1;if(d){var
-c=E(t,e[1]);return c?fH(k,a,i,c[1],b):c}return 0},x),b),g),w=x,u=Z;for(;;){if(w){var
-T=w[1],c=T[2],G=T[1],U=w[2],_=0;if(typeof
-c==="number"&&4===c){var
-B=h(o,g);if(B)var
-aa=B[1],$=ba(f(g)),H=l(function(b){return function(a){return K(aH(a,b)[2],d)}}(aa),$);else
+j=e;return j},S=aC,A=r[1]}if(A){var
+w=jH(n,c,g,cp(y(function(e){var
+a=e[2],d=0;if(typeof
+a==="number"){if(4!==a)d=1}else
+if(11!==a[0])d=1;if(d){var
+c=F(t,e[1]);return c?fQ(k,b,i,c[1],a):c}return 0},A),c),a),z=A,v=aj;for(;;){if(z){var
+ae=z[1],j=ae[2],P=ae[1],af=z[2],ak=0;if(typeof
+j==="number"&&4===j){var
+E=h(o,a);if(E)var
+am=E[1],al=a9(f(a)),Q=l(function(b){return function(a){return I(av(a,b)[2],d)}}(am),al);else
 var
-H=B;if(H){var
-w=U,u=e(function(a){return 0},u);continue}var
-v=H}else
-_=1;if(_){var
-W=r(G,u,0);if(W){var
-J=E(t,G);if(J){var
-p=J[1],M=0;if(typeof
-c==="number")M=1;else
-switch(c[0]){case
+Q=E;if(Q){var
+z=af,v=e(function(a){return 0},v);continue}var
+x=Q}else
+ak=1;if(ak){var
+ag=q(P,v,0);if(ag){var
+R=F(t,P);if(R){var
+p=R[1],T=0;if(typeof
+j==="number")T=1;else
+switch(j[0]){case
 11:var
-N=c[3],C=c[1],O=jI(b,k,a,i,j,p,C,c[2]);if(O)var
-ab=jJ(m,b,k,a,i,j,C,g,p,N),s=nY(m,b,k,a,i,bD(fE,C,j),o,ab,g,p,N);else
+W=j[3],G=j[1],X=hw(c,k,b,i,g,p,G,j[2]);if(X)var
+ap=hx(n,c,k,b,i,g,G,a,p,W),s=n9(n,c,k,b,i,by(eR,G,g),o,ap,a,p,W);else
 var
-s=O;break;case
+s=X;break;case
 12:var
-D=c[1],P=I(n(f(D),0));if(P){var
-Q=I(hh(c));if(Q)var
-z=Q;else
+H=j[1],Y=J(m(f(H),0));if(Y){var
+Z=J(hr(j));if(Z)var
+B=Z;else
 var
-ad=1<p[0]?0:1,z=ad}else
+ar=1<p[0]?0:1,B=ar}else
 var
-z=P;if(z)var
-ac=V(jw(e(function(a){return a[1][1][1]},D)),D),s=l(function(C,e){return function(t){var
-u=t[2],d=t[1],v=hh(C),h=u[1],l=h[1][2],n=h[2],c=u[2],p=v?a:k;function
-q(a){return v?hi(a):a}if(typeof
-c!=="number"&&11===c[0]){var
-r=c[3],f=c[1],s=jI(b,k,a,i,j,e,f,c[2]);if(s){var
-x=q(r),y=d[2],z=d[1],B=jJ(m,b,k,a,i,j,f,g,e,r);return nW(m,b,p,a,i,bD(fE,f,j),o,B,g,e,z,y,l,n,x)}return s}var
-w=q(c);return nW(m,b,p,a,i,j,o,A,g,e,d[1],d[2],l,n,w)}}(c,p),ac);else
+B=Y;if(B)var
+aq=N(jC(e(function(a){return a[1][1][1]},H)),H),s=l(function(C,f){return function(t){var
+u=t[2],e=t[1],v=hr(C),j=u[1],l=j[1][2],m=j[2],d=u[2],p=v?b:k;function
+q(a){return v?hs(a):a}if(typeof
+d!=="number"&&11===d[0]){var
+r=d[3],h=d[1],s=hw(c,k,b,i,g,f,h,d[2]);if(s){var
+y=q(r),z=e[2],A=e[1],B=hx(n,c,k,b,i,g,h,a,f,r);return n6(n,c,p,b,i,by(eR,h,g),o,B,a,f,A,z,l,m,y)}return s}var
+x=q(d);return n6(n,c,p,b,i,g,o,w,a,f,e[1],e[2],l,m,x)}}(j,p),aq);else
 var
-s=z;break;case
-13:if(2===p[0])var
-F=jD(m,c[1],c[2]),R=jm(f(g),F),S=R?n0(m,b,k,a,i,j,o,A,g,p,0,F,c[3]):R,s=S?n0(m,b,k,a,i,j,o,A,g,p,[0,p[1]],F,c[4]):S;else
+s=B;break;case
+13:var
+K=j[5],L=j[4],C=j[3],D=j[1];if(2===p[0]){var
+$=p[1],u=jK(n,D,j[2]);if(C){var
+as=jx(u,_(nZ(D,g,C))),aa=hf(f(a),as);if(aa){var
+U=ob(L);if(U){var
+V=ob(K);if(V)var
+an=V[1],ao=U[1],M=oa(function(a,b){return oa(m,a,b)},ao,an);else
 var
-s=0;break;default:M=1}if(M)var
-s=nY(m,b,k,a,i,j,o,A,g,p,c);if(s){var
-w=U,u=hl(G,u);continue}var
-X=s}else
+M=1}else
 var
-X=J;var
-Y=X}else
+M=1;var
+O=M}else
 var
-Y=W;var
-v=Y}}else
+O=aa;var
+ab=O?oc(n,c,k,b,i,g,o,w,a,p,0,u,D,C,L):O,s=ab?oc(n,c,k,b,i,g,o,w,a,p,[0,$],u,D,C,K):ab}else
 var
-v=[0,u];break}}else
+ac=hf(f(a),u),ad=ac?n$(n,c,k,b,i,g,o,w,a,p,0,u,L):ac,s=ad?n$(n,c,k,b,i,g,o,w,a,p,[0,$],u,K):ad}else
 var
-v=[0,Z];return v?L(v[1]):v}function
-jK(h,g,f,e,d,c,b,a){return function(i,j,k){return fJ(h,g,f,e,d,b,a,c,i,j,k)}}function
-jL(a){return e(function(a){return 1},a)}function
-eQ(a,d,b,c){function
+s=0;break;default:T=1}if(T)var
+s=n9(n,c,k,b,i,g,o,w,a,p,j);if(s){var
+z=af,v=hy(P,v);continue}var
+ah=s}else
+var
+ah=R;var
+ai=ah}else
+var
+ai=ag;var
+x=ai}}else
+var
+x=[0,v];break}}else
+var
+x=[0,aj];return x?S(x[1]):x}function
+jN(h,g,f,e,d,c,b,a){return function(i,j,k){return fS(h,g,f,e,d,b,a,c,i,j,k)}}function
+jO(a){return e(function(a){return 1},a)}function
+eU(a,d,b,c){function
 f(d,c){var
-f=V(a[1],b[1]);return e(function(a){var
-b=s(c,a[2]);return B(s(d,a[1]),b)},f)}if(a0(a[2],b[2])){var
+f=N(a[1],b[1]);return e(function(a){var
+b=u(c,a[2]);return C(u(d,a[1]),b)},f)}if(a2(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
-h=s(a[2],b[2]),i=s(c,a[2]);return[0,f(s(d,b[2]),i),h]}function
-n2(a){var
-c=m(b);return[0,e(function(a){return m(d)},a),c]}function
-bg(a,k){var
+h=u(a[2],b[2]),i=u(c,a[2]);return[0,f(u(d,b[2]),i),h]}function
+oe(a){var
+c=n(b);return[0,e(function(a){return n(d)},a),c]}function
+bh(a,k){var
 f=k[1];switch(f[0]){case
 1:var
-u=f[1];if(aj(function(a){return n(u,a)},a)){var
-C=m(b);return[0,e(function(a){var
-c=n(a,u)?b:d;return m(c)},a),C]}return n2(a);case
+t=f[1];if(ag(function(a){return m(t,a)},a)){var
+C=n(b);return[0,e(function(a){var
+c=m(a,t)?b:d;return n(c)},a),C]}return oe(a);case
 3:var
-D=m(b),E=bg(a,f[2]),F=m(b);return eQ(bg(a,f[1]),F,E,D);case
+D=n(b),E=bh(a,f[2]),F=n(b);return eU(bh(a,f[1]),F,E,D);case
 4:var
-G=m(R(b)),H=bg(a,f[2]),I=m(b);return eQ(bg(a,f[1]),I,H,G);case
+G=n(U(b)),H=bh(a,f[2]),I=n(b);return eU(bh(a,f[1]),I,H,G);case
 5:var
-v=bg(a,f[1]),J=v[2];return[0,e(bx,v[1]),J];case
+v=bh(a,f[1]),J=v[2];return[0,e(bB,v[1]),J];case
 6:var
-w=f[2],x=f[1],K=bg(a,w);return eQ(bg(a,x),w,K,x);case
+w=f[2],x=f[1],K=bh(a,w);return eU(bh(a,x),w,K,x);case
 7:var
-y=f[2],L=bx(k),M=bg(a,y),N=m(b),i=eQ(bg(a,f[1]),N,M,L),O=i[1];if(l(function(a){return be(d,a)},O))return i;var
-P=s(i[2],y);return[0,i[1],P];case
+y=f[2],L=bB(k),M=bh(a,y),N=n(b),i=eU(bh(a,f[1]),N,M,L),O=i[1];if(l(function(a){return bf(d,a)},O))return i;var
+P=u(i[2],y);return[0,i[1],P];case
 8:var
-A=f[1],B=bg(a,A),Q=B[2],S=B[1],T=s(m(c(2,b)),A);return[0,e(function(a){return s(T,a)},S),Q];case
+z=f[1],B=bh(a,z),Q=B[2],R=B[1],S=u(n(c(2,b)),z);return[0,e(function(a){return u(S,a)},R),Q];case
 9:var
-j=bg(a,f[1]),U=j[1];if(l(function(a){return be(d,a)},U)){var
-V=m(b);return[0,j[1],V]}var
-W=s(m(c(2,b)),k),X=s(j[2],W);return[0,j[1],X];case
+j=bh(a,f[1]),T=j[1];if(l(function(a){return bf(d,a)},T)){var
+V=n(b);return[0,j[1],V]}var
+W=u(n(c(2,b)),k),X=u(j[2],W);return[0,j[1],X];case
 10:var
-o=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,o]],q=[0,[10,1,h,g,o]],Y=z(g,q),Z=bg(a,g),_=z(h,p),$=eQ(bg(a,h),_,Z,Y),aa=m(R(b)),ab=bg(a,o),r=eQ($,m(c(2,b)),ab,aa),ac=r[1],ad=f[1]?p:bx(q),t=e(function(a){return s(ad,a)},ac);if(l(function(a){return be(d,a)},t))return[0,t,r[2]];var
-ae=s(h,q),af=z(s(g,p),ae),ag=s(m(c(2,b)),af);return[0,t,s(r[2],ag)];default:return n2(a)}}function
-hm(c,a){var
-b=bg(c,a),f=b[1];return e(function(a){return be(d,a)?a:ai(a,b[2])},f)}function
-n3(g){var
+o=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,o]],q=[0,[10,1,h,g,o]],Y=A(g,q),Z=bh(a,g),_=A(h,p),$=eU(bh(a,h),_,Z,Y),aa=n(U(b)),ab=bh(a,o),r=eU($,n(c(2,b)),ab,aa),ac=r[1],ad=f[1]?p:bB(q),s=e(function(a){return u(ad,a)},ac);if(l(function(a){return bf(d,a)},s))return[0,s,r[2]];var
+ae=u(h,q),af=A(u(g,p),ae),ah=u(n(c(2,b)),af);return[0,s,u(r[2],ah)];default:return oe(a)}}function
+hz(c,a){var
+b=bh(c,a),f=b[1];return e(function(a){return bf(d,a)?a:aj(a,b[2])},f)}function
+of(g){var
 h=g[1],c=h[2],e=h[1];if(0===e[0]){var
-i=e[2],a=e[1];if(F(i,b)){if(0===c[0]){var
-j=c[2],m=c[1];if(F(j,b)){var
-k=L(a,m),l=k?fz(a):k;if(l)var
-n=L(g[2],d),f=n||L(a,d);else
+i=e[2],a=e[1];if(D(i,b)){if(0===c[0]){var
+j=c[2],m=c[1];if(D(j,b)){var
+k=H(a,m),l=k?fE(a):k;if(l)var
+n=H(g[2],d),f=n||H(a,d);else
 var
 f=l;var
-o=f?[0,a]:f;return o}return L(aY(j,aO(2))[2],d)?0:0}return 0}return L(aY(i,aO(2))[2],d)?0:0}return 0}function
-bO(c,b){var
-a=n3(c);return a?m(a[1]):[0,[1,b]]}function
-cs(b,a){if(a)var
-d=cs([0,b],a[2]),c=[0,bO(a[1],b),d];else
+o=f?[0,a]:f;return o}return H(a1(j,aQ(2))[2],d)?0:0}return 0}return H(a1(i,aQ(2))[2],d)?0:0}return 0}function
+bR(c,b){var
+a=of(c);return a?n(a[1]):[0,[1,b]]}function
+cw(b,a){if(a)var
+d=cw([0,b],a[2]),c=[0,bR(a[1],b),d];else
 var
 c=a;return c}function
-bh(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-hn(b,d,a){switch(a[0]){case
+bi(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+hA(b,d,a){switch(a[0]){case
 0:var
-c=a[1],f=[0,[0,c[4],b],0],h=g(bh(c[3],b),f),i=g(bh(c[2],b),h);return g(bh(c[1],d),i);case
+c=a[1],f=[0,[0,c[4],b],0],h=g(bi(c[3],b),f),i=g(bi(c[2],b),h);return g(bi(c[1],d),i);case
 1:var
-e=a[3],j=e?bh(e[1],d):e,k=g(bh(a[2],b),j);return g(bh(a[1],b),k);default:return bh(a[1],d)}}function
-am(b,a){var
-c=m(d),e=r(N(vk,a),b,c),f=m(d),g=r(N(vl,a),b,f);return[0,r(a,b,m(d)),g,e]}function
-n4(b,a){return af(z,af(B,dT,a),b)}function
-ho(c,b,a){if(a){var
-e=a[2],f=ho(c,bC(b),e),h=a[1];return g(hn(c,bK(d,b),h),f)}return a}function
-jM(g,e,c,j){if(c){var
-b=c[1],v=N(j,f(hn(g,bK(d,e),b))),w=c[2],x=jM(g,bC(e),w,v),a=cs(j,hn(g,bK(d,e),b));switch(b[0]){case
+e=a[3],j=e?bi(e[1],d):e,k=g(bi(a[2],b),j);return g(bi(a[1],b),k);default:return bi(a[1],d)}}function
+ao(b,a){var
+c=n(d),e=q(O(vA,a),b,c),f=n(d),g=q(O(vB,a),b,f);return[0,q(a,b,n(d)),g,e]}function
+og(b,a){return ah(A,ah(C,dX,a),b)}function
+hB(c,b,a){if(a){var
+e=a[2],f=hB(c,bx(b),e),h=a[1];return g(hA(c,bG(d,b),h),f)}return a}function
+jP(g,e,c,j){if(c){var
+b=c[1],v=O(j,f(hA(g,bG(d,e),b))),w=c[2],x=jP(g,bx(e),w,v),a=cw(j,hA(g,bG(d,e),b));switch(b[0]){case
 0:var
-l=b[1][5],n=r(vm,a,m(d)),o=af(B,dT,am(a,vn)),p=dS(am(a,0)),q=am(a,vo),h=ni(n4(am(a,vp),q),p,o,n,l);break;case
+l=b[1][5],m=q(vC,a,n(d)),o=ah(C,dX,ao(a,vD)),p=dW(ao(a,0)),r=ao(a,vE),h=nl(og(ao(a,vF),r),p,o,m,l);break;case
 1:var
-i=b[3],s=i?[0,dS(am(a,vq))]:i,t=af(B,dT,am(a,vr)),u=am(a,vs),h=nj(n4(am(a,0),u),t,s);break;default:var
-h=nk(dT,dS(am(a,0)))}var
+i=b[3],s=i?[0,dW(ao(a,vG))]:i,t=ah(C,dX,ao(a,vH)),u=ao(a,vI),h=nm(og(ao(a,0),u),t,s);break;default:var
+h=nn(dX,dW(ao(a,0)))}var
 k=[0,h,x]}else
 var
 k=c;return k}function
-b6(c,a){if(typeof
+b9(c,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 h=[5,a[3],a[2]];return[0,[0,h,h],d];case
@@ -3192,7 +3378,7 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[5,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-p=a[3],q=eD(a[2]),l=[2,[2,eD(a[1]),q],p];return[0,[0,l,l],c];case
+p=a[3],q=eF(a[2]),l=[2,[2,eF(a[1]),q],p];return[0,[0,l,l],c];case
 11:var
 m=a[4];return[0,[0,m,m],c];case
 12:var
@@ -3203,186 +3389,186 @@ o=[5,a[2],a[3]];return[0,[0,o,o],d];case
 0:case
 1:var
 f=[5,[0,b,b],a[1]];return[0,[0,f,f],d];case
-2:case
-3:case
-14:var
-g=a[2];return[0,[0,g,g],c];default:var
-i=a[1];return[0,[0,i,i],d]}var
+5:case
+7:case
+9:var
+i=a[1];return[0,[0,i,i],d];default:var
+g=a[2];return[0,[0,g,g],c]}var
 e=[0,d,b];return[0,[0,e,e],d]}function
-fK(b,a){var
+fT(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-eR(c,a){if(0===a[0]){var
-e=[0,d,b],i=g(fK(c,a[5]),[0,[0,[0,e,e],d],0]),f=a[4],h=a[3];return g([0,[0,[0,h,h],c],[0,[0,[0,f,f],c],0]],i)}var
-j=fK(c,a[3]);return g(fK(c,a[2]),j)}function
-dY(b,a){if(typeof
+eV(c,a){if(0===a[0]){var
+e=[0,d,b],i=g(fT(c,a[5]),[0,[0,[0,e,e],d],0]),f=a[4],h=a[3];return g([0,[0,[0,h,h],c],[0,[0,[0,f,f],c],0]],i)}var
+j=fT(c,a[3]);return g(fT(c,a[2]),j)}function
+d1(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-h=eR(b,a[2]);return g(eR(b,a[1]),h);case
+h=eV(b,a[2]);return g(eV(b,a[1]),h);case
 11:var
-i=fK(b,a[3]);return g(fK(b,a[2]),i);case
+i=fT(b,a[3]);return g(fT(b,a[2]),i);case
 12:var
 c=a[3],f=[5,[4,c,c],a[4]];return[0,[0,[0,f,f],b],0];case
 15:var
 j=a[2],k=a[1];return e(function(b){var
 a=[5,j,b];return[0,[0,a,a],d]},k)}return 0}function
-n5(c,b,a){var
-d=f(dY(c,b)),e=N(a[2],d);return[0,[0,a[1]],e]}function
-jN(c,b){if(a0(b,c))return[0,m(d)];var
+oh(c,b,a){var
+d=f(d1(c,b)),e=O(a[2],d);return[0,[0,a[1]],e]}function
+jQ(c,b){if(a2(b,c))return[0,n(d)];var
 a=b[1];if(4===a[0]){var
-e=a0(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
-n6(x,p,a,o){switch(o[0]){case
+e=a2(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
+oi(x,p,a,o){switch(o[0]){case
 0:var
-i=E(x,o[1]);if(i){var
+i=F(x,o[1]);if(i){var
 j=i[1];if(j){var
-q=j[1],s=q[1],c=s[2],e=s[1],t=q[2],y=am(a,vt),A=af(B,af(z,e,a8(ai(r(vu,a,m(d)),t),c)),y),C=am(a,vv),f=ai(r(0,a,m(d)),t),k=jN(e[1],c[1]);if(k){var
-l=jN(e[2],c[2]);if(l){var
-n=jN(e[3],c[3]);if(n)var
-w=a8(f,c),g=af(B,[0,k[1],l[1],n[1]],w);else
+r=j[1],s=r[1],c=s[2],e=s[1],t=r[2],y=ao(a,vJ),z=ah(C,ah(A,e,a_(aj(q(vK,a,n(d)),t),c)),y),B=ao(a,vL),f=aj(q(0,a,n(d)),t),k=jQ(e[1],c[1]);if(k){var
+l=jQ(e[2],c[2]);if(l){var
+m=jQ(e[3],c[3]);if(m)var
+w=a_(f,c),g=ah(C,[0,k[1],l[1],m[1]],w);else
 var
-g=af(z,e,a8(z(m(b),f),c))}else
+g=ah(A,e,a_(A(n(b),f),c))}else
 var
-g=af(z,e,a8(z(m(b),f),c))}else
+g=ah(A,e,a_(A(n(b),f),c))}else
 var
-g=af(z,e,a8(z(m(b),f),c));var
-u=[0,[0,af(B,g,C),A]]}else
+g=ah(A,e,a_(A(n(b),f),c));var
+u=[0,[0,ah(C,g,B),z]]}else
 var
 u=j;var
 v=u}else
 var
 v=i;return v;case
 1:var
-D=am(a,vw);return[0,[0,am(a,0),D]];default:var
-F=h(p,am(a,vx));return[0,[0,h(p,am(a,0)),F]]}}function
-n7(e,d,c,h,g){var
-a=n6(e,d,ao(vy,c),h);if(a)var
-b=n6(e,d,ay(vz,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
+D=ao(a,vM);return[0,[0,ao(a,0),D]];default:var
+E=h(p,ao(a,vN));return[0,[0,h(p,ao(a,0)),E]]}}function
+oj(e,d,c,h,g){var
+a=oi(e,d,aq(vO,c),h);if(a)var
+b=oi(e,d,az(vP,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
 var
 f=a;return f}function
-n8(f,c,d,b,a){var
-h=eR(c,a),i=cs(d,g(eR(c,b),h));function
-j(a){return af(B,dT,a)}return n7(e(function(a){var
+ok(f,c,d,b,a){var
+h=eV(c,a),i=cw(d,g(eV(c,b),h));function
+j(a){return ah(C,dX,a)}return oj(e(function(a){var
 b=a[7];return x(function(b){var
-c=df(a);return[0,[0,b,a[1]],c]},b)},f),j,i,b,a)}function
-dZ(d,c,b,a){var
-e=s(c,b);return z(s(d,a),e)}function
-bF(a){return y(function(a){return g(a[1],[0,a[2],0])},a)}function
-n9(b,a){if(b)if(a)var
-d=b[1],e=n9(b[2],a[2]),f=s(d[2],a[1]),c=[0,[0,bM(d[1]),f],e];else
+c=di(a);return[0,[0,b,a[1]],c]},b)},f),j,i,b,a)}function
+d2(d,c,b,a){var
+e=u(c,b);return A(u(d,a),e)}function
+bI(a){return y(function(a){return g(a[1],[0,a[2],0])},a)}function
+ol(b,a){if(b)if(a)var
+d=b[1],e=ol(b[2],a[2]),f=u(d[2],a[1]),c=[0,[0,bP(d[1]),f],e];else
 var
 c=a;else
 var
 c=b;return c}function
-n_(a){if(a){var
+om(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=n_(a[2]);if(d)var
-g=d[1],h=aa(c,c),e=[0,[0,[0,bM(c),h],g]];else
+c=b[1],d=om(a[2]);if(d)var
+g=d[1],h=ac(c,c),e=[0,[0,[0,bP(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return vB}function
-fL(b,d,c,a){if(typeof
+f=b;return f}return vR}function
+fU(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-i=c[1],j=bO(b6(d,a),i);return[0,e(function(a){var
-b=s(a[2],j);return[0,bM(a[1]),b]},b)];case
-9:return n_(b);case
+i=c[1],j=bR(b9(d,a),i);return[0,e(function(a){var
+b=u(a[2],j);return[0,bP(a[1]),b]},b)];case
+9:return om(b);case
 15:var
-k=f(b),g=n(f(a[1]),k);if(g)var
-l=dY(d,a),h=[0,n9(b,cs(c[2],l))];else
+k=f(b),g=m(f(a[1]),k);if(g)var
+l=d1(d,a),h=[0,ol(b,cw(c[2],l))];else
 var
 h=g;return h}return 0}function
-hp(e,k,j,a){var
-P=j[1],c=bO(b6(k,a),P),u=0;if(typeof
-a==="number")u=1;else
+hC(e,k,j,a){var
+P=j[1],c=bR(b9(k,a),P),t=0;if(typeof
+a==="number")t=1;else
 switch(a[0]){case
 2:var
-Q=function(a){return[0,z(a[4],c),0]},g=Q,f=a[1];break;case
+Q=function(a){return[0,A(a[4],c),0]},g=Q,f=a[1];break;case
 3:var
-R=function(a){return[0,z(c,a[4]),0]},g=R,f=a[1];break;case
+R=function(a){return[0,A(c,a[4]),0]},g=R,f=a[1];break;case
 4:var
 S=function(b){var
-a=b[1],d=W(a[3]),e=W(a[2]),f=W(a[1]),g=b[2];return[0,z(z(z(s(W(c),g),f),e),d),0]},g=S,f=a[1];break;case
+a=b[1],d=X(a[3]),e=X(a[2]),f=X(a[1]),g=b[2];return[0,A(A(A(u(X(c),g),f),e),d),0]},g=S,f=a[1];break;case
 6:var
 T=function(b){var
 a=b[5];if(a)var
-e=W(a[1]),f=s(W(c),e),d=[0,z(b[2],f),0];else
+e=X(a[1]),f=u(X(c),e),d=[0,A(b[2],f),0];else
 var
 d=a;return d},g=T,f=a[1];break;case
 7:if(e){var
 l=e[2];if(l){var
-n=l[2];if(n){if(n[2])return 0;var
-w=n[1],x=l[1],A=e[1],h=w[1],i=x[1],p=A[1],K=dZ(i[1],i[2],h[1],h[2]),L=s(p[3],K),M=dZ(i[1],i[3],h[1],h[3]),N=s(p[2],M),O=dZ(i[2],i[3],h[2],h[3]),v=B(z(s(p[1],O),N),L),U=df(w),V=df(x),C=s(s(s(c,df(A)),V),U),X=[0,bx(B(v,C)),0],D=[0,z(v,C),X]}else
+m=l[2];if(m){if(m[2])return 0;var
+w=m[1],x=l[1],z=e[1],h=w[1],i=x[1],p=z[1],K=d2(i[1],i[2],h[1],h[2]),L=u(p[3],K),M=d2(i[1],i[3],h[1],h[3]),N=u(p[2],M),O=d2(i[2],i[3],h[2],h[3]),v=C(A(u(p[1],O),N),L),U=di(w),V=di(x),B=u(u(u(c,di(z)),V),U),W=[0,bB(C(v,B)),0],D=[0,A(v,B),W]}else
 var
-D=n;var
-F=D}else
+D=m;var
+E=D}else
 var
-F=l;var
-G=F}else
+E=l;var
+G=E}else
 var
 G=e;return G;case
 10:var
-t=n8(e,k,j[2],a[1],a[2]);if(t){var
-H=t[1],I=H[2],J=H[1];return y(bM,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return t;case
+s=ok(e,k,j[2],a[1],a[2]);if(s){var
+H=s[1],I=H[2],J=H[1];return y(bP,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return s;case
 11:var
 Y=function(d){var
 e=d[7];if(e)var
-n=dY(k,a),f=cs(j[2],n),h=am(f,vA),b=af(z,am(f,0),h),i=W(c),l=W(df(d)),m=ai(W(aa(b,d[1])),l),g=[0,z(z(aa(b,b),m),i),0];else
+n=d1(k,a),f=cw(j[2],n),h=ao(f,vQ),b=ah(A,ao(f,0),h),i=X(c),l=X(di(d)),m=aj(X(ac(b,d[1])),l),g=[0,A(A(ac(b,b),m),i),0];else
 var
 g=e;return g},g=Y,f=a[1];break;case
 12:var
 Z=function(e){var
-p=m(d),q=dY(k,a),t=r(0,cs(j[2],q),p),f=ai(t,df(e)),g=e[5];if(g){var
-l=aM(e[2]),h=ai(g[1],l),n=s(h,B(c,s(f,W(h))));return[0,z(m(b),n),0]}var
-i=e[7],o=i?[0,z(z(m(b),c),f),0]:i;return o},g=Z,f=a[1];break;case
+p=n(d),r=d1(k,a),s=q(0,cw(j[2],r),p),f=aj(s,di(e)),g=e[5];if(g){var
+l=aO(e[2]),h=aj(g[1],l),m=u(h,C(c,u(f,X(h))));return[0,A(n(b),m),0]}var
+i=e[7],o=i?[0,A(A(n(b),c),f),0]:i;return o},g=Z,f=a[1];break;case
 8:case
 9:case
 15:var
-q=fL(e,k,j,a);return q?bF(q[1]):q;default:u=1}if(u)return 0;var
-o=E(e,f);return o?g(o[1]):o}function
-jO(d,b,c,a){if(a){var
-e=a[1],f=a[2],h=jO(d,b,n5(b,e,c),f);return g(hp(d,b,c,e),h)}return a}var
-n$=[0,d,b],oa=[0,[0,n$,n$],d];function
-jP(a){return I(co(a[1][1],a[1][2]))}function
-hq(a){var
-b=aB(0,f(a));return aZ(function(b){return jP(r(b,a,oa))},b)}function
-jQ(b,a){var
-c=V(hq(b),a);return aZ(function(a){return I(be(d,a[2]))},c)}function
-fM(a,b){return jQ(a,hm(hq(a),b))}function
-ob(b,a){var
+r=fU(e,k,j,a);return r?bI(r[1]):r;default:t=1}if(t)return 0;var
+o=F(e,f);return o?g(o[1]):o}function
+jR(d,b,c,a){if(a){var
+e=a[1],f=a[2],h=jR(d,b,oh(b,e,c),f);return g(hC(d,b,c,e),h)}return a}var
+on=[0,d,b],oo=[0,[0,on,on],d];function
+jS(a){return J(cs(a[1][1],a[1][2]))}function
+hD(a){var
+b=aA(0,f(a));return aW(function(b){return jS(q(b,a,oo))},b)}function
+jT(b,a){var
+c=N(hD(b),a);return aW(function(a){return J(bf(d,a[2]))},c)}function
+fV(a,b){return jT(a,hz(hD(a),b))}function
+op(b,a){var
 c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]}function
-oc(m,l,k,j,i,a){return ac(e(function(e){var
-a=r(e[1],k,oa),f=aR(a[2],j),g=[4,[0,c(2,b),b],i],d=[5,[3,a[1][2],a[1][1]],g],n=ar(m,[0,[0,d,d],f]);return x(function(a){return[0,a,h(l,e[2])]},n)},a))}function
-od(f,e,a,d,c,b){return oc(f,e,a,d,c,fM(a,b))}function
-jR(g,f,n,m,l,e,c){var
-i=[5,l,e],a=ar(g,[0,[0,i,i],d]);if(a){var
-b=od(g,f,n,m,e,c);if(b)var
+oq(m,l,k,j,i,a){return ad(e(function(e){var
+a=q(e[1],k,oo),f=aT(a[2],j),g=[4,[0,c(2,b),b],i],d=[5,[3,a[1][2],a[1][1]],g],n=au(m,[0,[0,d,d],f]);return x(function(a){return[0,a,h(l,e[2])]},n)},a))}function
+or(f,e,a,d,c,b){return oq(f,e,a,d,c,fV(a,b))}function
+jU(g,f,n,m,l,e,c){var
+i=[5,l,e],a=au(g,[0,[0,i,i],d]);if(a){var
+b=or(g,f,n,m,e,c);if(b)var
 o=[0,a[1],b[1]],j=[0,[0,h(f,c),o]];else
 var
 j=b;var
 k=j}else
 var
 k=a;return k}function
-oe(c,G,m,al,k,j,o,s){if(s){var
-a=s[1],aH=s[2],aI=oe(c,G,m,al,k,j,n5(j,a,o),aH);if(typeof
+os(c,G,n,al,k,j,o,s){if(s){var
+a=s[1],aH=s[2],aI=os(c,G,n,al,k,j,oh(j,a,o),aH);if(typeof
 a==="number")if(0===a)var
-g=[0,[0,u]];else
+g=[0,[0,t]];else
 var
-an=G[2],ao=G[1],ap=fC(k),g=[0,[8,h(az(m),ap),ao,an]];else
+an=G[2],ao=G[1],ap=fJ(k),g=[0,[8,h(aB(n),ap),ao,an]];else
 switch(a[0]){case
 0:var
-aq=ar(c,b6(j,a)),g=x(function(a){return[0,S(c,a)]},aq);break;case
+aq=au(c,b9(j,a)),g=x(function(a){return[0,P(c,a)]},aq);break;case
 1:var
-as=ar(c,b6(j,a)),g=x(function(a){return[1,S(c,a)]},as);break;case
+ar=au(c,b9(j,a)),g=x(function(a){return[1,P(c,a)]},ar);break;case
 5:var
-au=ar(c,b6(j,a)),g=x(function(a){return[2,S(c,a)]},au);break;case
+at=au(c,b9(j,a)),g=x(function(a){return[2,P(c,a)]},at);break;case
 8:var
-av=fL(k,j,o,a),g=x(function(a){var
-d=J(c,b);return[4,h(az(m),a),d]},av);break;case
+av=fU(k,j,o,a),g=x(function(a){var
+d=L(c,b);return[4,h(aB(n),a),d]},av);break;case
 9:var
-w=fL(k,j,o,a);if(w){var
-y=ar(c,b6(j,a));if(y)var
-aw=S(c,y[1]),ax=w[1],M=[0,[4,h(az(m),ax),aw]];else
+w=fU(k,j,o,a);if(w){var
+y=au(c,b9(j,a));if(y)var
+aw=P(c,y[1]),ax=w[1],M=[0,[4,h(aB(n),ax),aw]];else
 var
 M=y;var
 N=M}else
@@ -3390,10 +3576,10 @@ var
 N=w;var
 g=N;break;case
 10:var
-z=n8(k,j,o[2],a[1],a[2]);if(z){var
-O=z[1],P=O[2],Q=O[1],A=ar(c,b6(j,a));if(A){var
-R=A[1],T=F(d,R[1]);if(T)var
-q=function(a){return ob(m,a)},ay=q(P[2]),aA=q(P[1]),aB=q(Q[2]),U=[0,[6,q(Q[1]),aB,aA,ay,R]];else
+z=ok(k,j,o[2],a[1],a[2]);if(z){var
+O=z[1],Q=O[2],R=O[1],A=au(c,b9(j,a));if(A){var
+S=A[1],T=D(d,S[1]);if(T)var
+q=function(a){return op(n,a)},ay=q(Q[2]),az=q(Q[1]),aA=q(R[2]),U=[0,[6,q(R[1]),aA,az,ay,S]];else
 var
 U=T;var
 V=U}else
@@ -3404,24 +3590,24 @@ var
 W=z;var
 g=W;break;case
 12:var
-r=hp(k,j,o,a),t=0;if(r)if(r[2])var
+r=hC(k,j,o,a),u=0;if(r)if(r[2])var
 g=0;else{var
 X=i(c,0,a[2]),Y=X?i(c,1,a[4]):X;if(Y){var
-B=[0,[3,h(m,r[1])]];t=1}else{var
-B=Y;t=1}}else{var
-B=r;t=1}if(t)var
+B=[0,[3,h(n,r[1])]];u=1}else{var
+B=Y;u=1}}else{var
+B=r;u=1}if(u)var
 g=B;break;case
 13:var
-Z=a[1],_=E(k,Z),H=0;if(_){var
+Z=a[1],_=F(k,Z),H=0;if(_){var
 $=i(c,1,a[2]),aa=$?i(c,1,a[3]):$;if(aa)var
-aC=ar(c,b6(j,a)),g=x(function(a){return[7,Z,S(c,a)]},aC);else{var
+aC=au(c,b9(j,a)),g=x(function(a){return[7,Z,P(c,a)]},aC);else{var
 ab=aa;H=1}}else{var
 ab=_;H=1}if(H)var
 g=ab;break;case
 14:var
-ad=a[2],ae=a[1],af=n(f(k),vC),ag=af?i(c,0,ae):af,ah=ag?i(c,1,ad):ag;if(ah){var
-C=ar(c,b6(j,a));if(C)var
-D=ac(e(function(a){return jR(c,m,al,j,ae,ad,a[4])},k)),aD=D?[0,[9,C[1],D[1]]]:D,ai=aD;else
+ac=a[2],ae=a[1],af=m(f(k),vS),ag=af?i(c,0,ae):af,ah=ag?i(c,1,ac):ag;if(ah){var
+C=au(c,b9(j,a));if(C)var
+E=ad(e(function(a){return jU(c,n,al,j,ae,ac,a[4])},k)),aD=E?[0,[9,C[1],E[1]]]:E,ai=aD;else
 var
 ai=C;var
 aj=ai}else
@@ -3430,34 +3616,34 @@ aj=ah;var
 g=aj;break;case
 15:var
 aE=[0,a[2],a[1]],aF=1,ak=l(function(a){return i(c,aF,a)},aE);if(ak)var
-aG=fL(k,j,o,a),g=x(function(a){var
-d=J(c,b);return[4,h(az(m),a),d]},aG);else
+aG=fU(k,j,o,a),g=x(function(a){var
+d=L(c,b);return[4,h(aB(n),a),d]},aG);else
 var
 g=ak;break;default:var
-p=hp(k,j,o,a),I=0;if(p){var
-v=p[2],K=p[1];if(v)if(v[2])var
+p=hC(k,j,o,a),I=0;if(p){var
+v=p[2],J=p[1];if(v)if(v[2])var
 g=0;else
 var
-at=h(m,v[1]),g=[0,[5,h(m,K),at]];else{var
-L=[0,[3,h(m,K)]];I=1}}else{var
-L=p;I=1}if(I)var
-g=L}var
+as=h(n,v[1]),g=[0,[5,h(n,J),as]];else{var
+K=[0,[3,h(n,J)]];I=1}}else{var
+K=p;I=1}if(I)var
+g=K}var
 am=[0,g,aI]}else
 var
 am=s;return am}function
-vD(a){var
+vT(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
-eS(a){if(0===a[0])return a[1];var
+eW(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-of(a,c,g,b){if(0===c[0])return 0;if(b){var
+ot(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
-e=d[1],f=b[1],i=dd(a,g,c[1]);if(i){var
-j=dd(a,g,c[2]);if(j){var
-k=dd(a,g,c[3]);if(k)var
-v=i[1],w=cp(f),l=C([0,cp(f),w],v),x=j[1],y=cp(e),m=C([0,cp(e),y],x),z=eM(e),B=[0,eM(e),z],D=[0,t(a,$(A(m,m)),B),0],E=eM(f),F=[0,eM(f),E],G=[0,t(a,$(A(l,l)),F),D],H=S(a,m),I=S(a,l),n=[0,[0,C(C(S(a,k[1]),I),H),u,G]];else
+e=d[1],f=b[1],i=df(a,g,c[1]);if(i){var
+j=df(a,g,c[2]);if(j){var
+k=df(a,g,c[3]);if(k)var
+v=i[1],w=ct(f),l=B([0,ct(f),w],v),x=j[1],y=ct(e),m=B([0,ct(e),y],x),A=eM(e),C=[0,eM(e),A],D=[0,s(a,Q(z(m,m)),C),0],E=eM(f),F=[0,eM(f),E],G=[0,s(a,Q(z(l,l)),F),D],H=P(a,m),I=P(a,l),n=[0,[0,B(B(P(a,k[1]),I),H),t,G]];else
 var
 n=k;var
 o=n}else
@@ -3472,17 +3658,17 @@ q=h;var
 r=q}else
 var
 r=d;var
-s=r}else
+u=r}else
 var
-s=b;return s}function
-hr(a,p,o){var
-q=bh(p,o),b=e(function(b){return ar(a,b)},q);if(b){var
+u=b;return u}function
+hE(a,p,o){var
+q=bi(p,o),b=e(function(b){return au(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 f=c[2];if(f){var
 i=f[1];if(i){if(f[2])return 0;var
-r=S(a,i[1]),s=S(a,h[1]);return K(d,A(A(S(a,g[1]),s),r)[1])}var
+r=P(a,i[1]),s=P(a,h[1]);return I(d,z(z(P(a,g[1]),s),r)[1])}var
 j=i}else
 var
 j=f;var
@@ -3499,152 +3685,152 @@ n=m}else
 var
 n=b;return n}function
 M(c,b,a){var
-d=as(c,b[3],a[3]),e=as(c,b[2],a[2]);return[0,as(c,b[1],a[1]),e,d]}function
-P(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
+d=at(c,b[3],a[3]),e=at(c,b[2],a[2]);return[0,at(c,b[1],a[1]),e,d]}function
+S(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
 v(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
-aD(a){return P([5,[0,b,b],[6,v(a,a)]],a)}function
-dm(c,b,a){var
-d=bE(c,b[1],a);return d?bE(c,a,b[2]):d}function
-by(c,b,a){var
-d=dm(c,b[1],a[1]),e=d?dm(c,b[2],a[2]):d;return e?dm(c,b[3],a[3]):e}function
-og(b,c,a){switch(c[0]){case
+aE(a){return S([5,[0,b,b],[6,v(a,a)]],a)}function
+dq(c,b,a){var
+d=bH(c,b[1],a);return d?bH(c,a,b[2]):d}function
+bC(c,b,a){var
+d=dq(c,b[1],a[1]),e=d?dq(c,b[2],a[2]):d;return e?dq(c,b[3],a[3]):e}function
+ou(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
-j=a[4],f=a[1],k=by(b,d[1],f),l=k?i(b,1,v(f,f)):k,m=l?by(b,d[2],a[2]):l,n=m?by(b,d[3],a[3]):m,o=n?dm(b,d[4],j):n,p=o?i(b,1,j):o;return p?cI(d[5],a[5]):p}return 0;case
+j=a[4],f=a[1],k=bC(b,d[1],f),l=k?i(b,1,v(f,f)):k,m=l?bC(b,d[2],a[2]):l,n=m?bC(b,d[3],a[3]):m,o=n?dq(b,d[4],j):n,p=o?i(b,1,j):o;return p?cM(d[5],a[5]):p}return 0;case
 1:var
 q=c[3];if(1===a[0]){var
-e=a[3],r=by(b,c[1],a[1]),s=r?by(b,c[2],a[2]):r;if(s){if(q){if(e){var
-g=e[1],t=by(b,q[1],g);if(t)return i(b,1,v(g,g));var
+e=a[3],r=bC(b,c[1],a[1]),s=r?bC(b,c[2],a[2]):r;if(s){if(q){if(e){var
+g=e[1],t=bC(b,q[1],g);if(t)return i(b,1,v(g,g));var
 u=t}else
 var
 u=e;return u}if(e)return 0;var
 w=1}else
 var
 w=s;return w}return 0;default:if(2===a[0]){var
-h=a[1],x=by(b,c[1],h);return x?i(b,1,v(h,h)):x}return 0}}function
-cV(c,a,b){if(0===a[0])return by(c,a[1],b);var
-d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=i(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),h=g?i(c,0,d):g;return h?dm(c,a[4],b[3]):h}function
-fN(g,f,i,h){var
+h=a[1],x=bC(b,c[1],h);return x?i(b,1,v(h,h)):x}return 0}}function
+cY(c,a,b){if(0===a[0])return bC(c,a[1],b);var
+d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=i(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),h=g?i(c,0,d):g;return h?dq(c,a[4],b[3]):h}function
+fW(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=og(g,b[1],a[1]);if(d){var
+d=ou(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
 e=a;var
 c=e}else
 var
-c=a?0:1;return c?cV(g,f[2],h):c}}function
-aQ(c,b,a){var
+c=a?0:1;return c?cY(g,f[2],h):c}}function
+aS(c,b,a){var
 d=M(function(b,a){return[2,b,a]},a,b);return M(function(b,a){return[3,b,a]},d,c)}function
-d0(a,e,d,c){var
-b=aQ(e,d,c),f=aD(a),g=P(v(aD(a),b),f);return M(function(b,a){return[3,b,a]},b,g)}function
-b7(f,e,d,a,c){var
-b=d0(f,e,d,c);return[3,[4,a,a],v(b,b)]}function
-ct(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
-b8(a,c){switch(a[0]){case
+d3(a,e,d,c){var
+b=aS(e,d,c),f=aE(a),g=S(v(aE(a),b),f);return M(function(b,a){return[3,b,a]},b,g)}function
+b_(f,e,d,a,c){var
+b=d3(f,e,d,c);return[3,[4,a,a],v(b,b)]}function
+cx(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
+b$(a,c){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=d0(d,f,e,c),h=b7(d,f,e,a[4],c),i=P([5,[0,b,b],ct(a[5],h)],g),j=aD(d);return M(function(b,a){return[2,b,a]},j,i);case
-1:return aD(aQ(a[1],a[2],c));default:return aD(a[1])}}function
-bG(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=d3(d,f,e,c),h=b_(d,f,e,a[4],c),i=S([5,[0,b,b],cx(a[5],h)],g),j=aE(d);return M(function(b,a){return[2,b,a]},j,i);case
+1:return aE(aS(a[1],a[2],c));default:return aE(a[1])}}function
+bJ(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=aD(c),g=b7(c,e,d,a[4],b),h=P(ct(a[5],g),f),i=d0(c,e,d,b);return M(function(b,a){return[2,b,a]},i,h);case
-1:return aQ(a[1],a[2],b);default:return aD(a[1])}}function
-cW(a,b){switch(a[0]){case
+d=a[3],e=a[2],c=a[1],f=aE(c),g=b_(c,e,d,a[4],b),h=S(cx(a[5],g),f),i=d3(c,e,d,b);return M(function(b,a){return[2,b,a]},i,h);case
+1:return aS(a[1],a[2],b);default:return aE(a[1])}}function
+cZ(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=b7(e,d,c,a[4],b),i=ct(a[5],h),j=aQ(d,c,b);return[3,v(aD(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=b_(e,d,c,a[4],b),i=cx(a[5],h),j=aS(d,c,b);return[3,v(aE(e),j),i];case
 1:var
-f=a[2],g=a[1],k=aQ(g,f,b);return[6,v(aQ(g,f,b),k)];default:return v(aD(a[1]),b)}}function
-jS(a,b){switch(a[0]){case
-0:return[0,b7(a[1],a[2],a[3],a[4],b)];case
+f=a[2],g=a[1],k=aS(g,f,b);return[6,v(aS(g,f,b),k)];default:return v(aE(a[1]),b)}}function
+jV(a,b){switch(a[0]){case
+0:return[0,b_(a[1],a[2],a[3],a[4],b)];case
 1:var
-c=a[2],d=a[1],e=aQ(d,c,b);return[0,v(aQ(d,c,b),e)];default:return 0}}function
-fO(e,c,a){var
-f=[0,d,b];return aq(function(b,d){var
-e=v(b8(b,c),a);return[2,[4,v(b8(b,c),a),e],d]},f,e)}function
-oh(f,e,c,a){if(f){if(e){var
-g=e[1],h=oh(f[2],e[2],c,a),i=v(b8(g,c),a),j=[4,v(b8(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
-oi(a){var
+c=a[2],d=a[1],e=aS(d,c,b);return[0,v(aS(d,c,b),e)];default:return 0}}function
+fX(e,c,a){var
+f=[0,d,b];return am(function(b,d){var
+e=v(b$(b,c),a);return[2,[4,v(b$(b,c),a),e],d]},f,e)}function
+ov(f,e,c,a){if(f){if(e){var
+g=e[1],h=ov(f[2],e[2],c,a),i=v(b$(g,c),a),j=[4,v(b$(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
+ow(a){var
 c=a[1];return[0,[0,c[1],b],[0,c[2],b],[0,a[2],b]]}function
-jT(a,c){switch(a[0]){case
+jW(a,c){switch(a[0]){case
 0:return a[4];case
 1:var
-d=a[2],e=a[1],f=aQ(e,d,c);return[6,v(aQ(e,d,c),f)];default:return[0,b,b]}}function
-oj(d,i){if(d){var
+d=a[2],e=a[1],f=aS(e,d,c);return[6,v(aS(e,d,c),f)];default:return[0,b,b]}}function
+ox(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=aQ(a[1],a[2],i),k=aD(f),l=P(v(aD(f),g),k),h=[0,M(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=aS(a[1],a[2],i),k=aE(f),l=S(v(aE(f),g),k),h=[0,M(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=oj(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=ox(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return vE}function
-dn(a){return[0,a[1],a[2],a[3]]}function
-ok(a,b){switch(a[0]){case
+j=b;return j}return vU}function
+dr(a){return[0,a[1],a[2],a[3]]}function
+oy(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=aD(d),j=b7(d,g,c,f,b),k=P(ct(a[5],j),i),l=d0(d,g,c,b),m=M(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,M(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=aE(d),j=b_(d,g,c,f,b),k=S(cx(a[5],j),i),l=d3(d,g,c,b),m=M(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,M(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=aQ(a[1],h,b),n=[6,v(e,e)];return[0,[0,[0,M(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-ol(m,e,a){switch(a[0]){case
+h=a[2],e=aS(a[1],h,b),n=[6,v(e,e)];return[0,[0,[0,M(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
+oz(m,e,a){switch(a[0]){case
 0:var
-n=a[5],c=E(m,a[1]);if(c){var
+n=a[5],c=F(m,a[1]);if(c){var
 d=c[1];if(d)var
 f=d[1],g=f[1],i=f[2],o=g[2],p=g[1],j=function(a){var
-b=dn(n),c=P(a,o),d=M(function(b,a){return[3,b,a]},p,c);return M(function(b,a){return[2,b,a]},d,b)},q=j([5,a[4],i]),k=[0,[0,j([3,[0,b,b],[5,a[3],i]]),q]];else
+b=dr(n),c=S(a,o),d=M(function(b,a){return[3,b,a]},p,c);return M(function(b,a){return[2,b,a]},d,b)},q=j([5,a[4],i]),k=[0,[0,j([3,[0,b,b],[5,a[3],i]]),q]];else
 var
 k=d;var
 l=k}else
 var
 l=c;return l;case
 1:var
-r=dn(a[3]);return[0,[0,dn(a[2]),r]];default:var
-s=h(e,dn(a[3]));return[0,[0,h(e,dn(a[2])),s]]}}function
-om(d,a,c,b){var
-e=P(a,b),f=P([3,d,a],c);return M(function(b,a){return[2,b,a]},f,e)}function
-on(a,l,c,k,j,y){var
+r=dr(a[3]);return[0,[0,dr(a[2]),r]];default:var
+s=h(e,dr(a[3]));return[0,[0,h(e,dr(a[2])),s]]}}function
+oA(d,a,c,b){var
+e=S(a,b),f=S([3,d,a],c);return M(function(b,a){return[2,b,a]},f,e)}function
+oB(a,l,c,k,j,y){var
 d=h(l,k);if(d){var
 m=d[1],e=h(l,j);if(e){var
-n=e[1],f=c[1],g=c[2],b=c[3],z=om(b,g,n[1],n[2]),A=om(b,f,m[1],m[2]),o=M(function(b,a){return[3,b,a]},A,z),B=eD(j),p=[4,b,[2,[2,eD(k),B],y]],q=i(a,1,b),r=q?i(a,0,f):q,s=r?i(a,0,[3,b,f]):r,t=s?i(a,0,g):s,u=t?i(a,0,[3,b,g]):t;if(u)return i(a,1,[3,[4,p,p],v(o,o)]);var
+n=e[1],f=c[1],g=c[2],b=c[3],z=oA(b,g,n[1],n[2]),A=oA(b,f,m[1],m[2]),o=M(function(b,a){return[3,b,a]},A,z),B=eF(j),p=[4,b,[2,[2,eF(k),B],y]],q=i(a,1,b),r=q?i(a,0,f):q,s=r?i(a,0,[3,b,f]):r,t=s?i(a,0,g):s,u=t?i(a,0,[3,b,g]):t;if(u)return i(a,1,[3,[4,p,p],v(o,o)]);var
 w=u}else
 var
 w=e;var
 x=w}else
 var
 x=d;return x}function
-oo(d,c,b,a,h,g,f,e){var
+oC(d,c,b,a,h,g,f,e){var
 j=i(d,1,b),k=j?i(d,1,a):j;if(k){var
-l=as(c,f,f),m=[4,[4,a,a],[4,as(c,g,g),l]];return i(d,1,[3,[4,[4,[4,b,b],[4,h,h]],as(c,e,e)],m])}return k}function
-op(h,g,c,f,y,a){function
+l=at(c,f,f),m=[4,[4,a,a],[4,at(c,g,g),l]];return i(d,1,[3,[4,[4,[4,b,b],[4,h,h]],at(c,e,e)],m])}return k}function
+oD(h,g,c,f,y,a){function
 T(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],v(f,f)]}var
 O=0;if(typeof
 a==="number")O=1;else
 switch(a[0]){case
 0:var
-aG=fO(g,c,f);return i(h,1,[3,T(a[1]),aG]);case
+aG=fX(g,c,f);return i(h,1,[3,T(a[1]),aG]);case
 1:var
-aH=T(a[1]);return i(h,1,[3,fO(g,c,f),aH]);case
+aH=T(a[1]);return i(h,1,[3,fX(g,c,f),aH]);case
 2:var
-aI=a[2],aJ=function(a){return[3,aI,cW(a,c)]},A=aJ,z=a[1];break;case
+aI=a[2],aJ=function(a){return[3,aI,cZ(a,c)]},A=aJ,z=a[1];break;case
 3:var
-aK=a[2],aL=function(a){return[3,cW(a,c),aK]},A=aL,z=a[1];break;case
+aK=a[2],aL=function(a){return[3,cZ(a,c),aK]},A=aL,z=a[1];break;case
 4:var
 U=a[3],V=a[2],aM=function(a){var
-b=b8(a,c);return[3,[4,[4,V,V],v(b8(a,c),b)],[4,U,U]]},A=aM,z=a[1];break;case
+b=b$(a,c);return[3,[4,[4,V,V],v(b$(a,c),b)],[4,U,U]]},A=aM,z=a[1];break;case
 5:var
-W=a[1],aN=v(f,f),aO=[4,[4,W,W],[4,fO(g,c,y),aN]],aP=v(y,y);return i(h,1,[3,[4,fO(g,c,f),aP],aO]);case
+W=a[1],aN=v(f,f),aO=[4,[4,W,W],[4,fX(g,c,y),aN]],aP=v(y,y);return i(h,1,[3,[4,fX(g,c,f),aP],aO]);case
 6:var
-X=a[2],C=E(g,a[1]);if(C){var
+X=a[2],C=F(g,a[1]);if(C){var
 k=C[1];if(0===k[0]){var
-D=k[4],aR=b7(k[1],k[2],k[3],D,c),Y=ct(k[5],aR);return i(h,1,[3,[4,[4,X,D],[4,X,D]],[4,Y,Y]])}var
+D=k[4],aQ=b_(k[1],k[2],k[3],D,c),Y=cx(k[5],aQ);return i(h,1,[3,[4,[4,X,D],[4,X,D]],[4,Y,Y]])}var
 Z=0}else
 var
 Z=C;return Z;case
 7:if(g){var
 p=g[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-_=q[1],$=p[1],aa=g[1],aS=jT(_,c),aT=jT($,c),aU=jT(aa,c),ab=[4,[4,[4,a[1],aU],aT],aS],l=bG(_,c),m=bG($,c),aV=bG(aa,c),Q=v(aV,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ac=i(h,1,[3,ab,Q]);if(ac)return i(h,1,[2,ab,Q]);var
+_=q[1],$=p[1],aa=g[1],aR=jW(_,c),aT=jW($,c),aU=jW(aa,c),ab=[4,[4,[4,a[1],aU],aT],aR],l=bJ(_,c),m=bJ($,c),aV=bJ(aa,c),P=v(aV,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ac=i(h,1,[3,ab,P]);if(ac)return i(h,1,[2,ab,P]);var
 ad=ac}else
 var
 ad=q;var
@@ -3655,17 +3841,17 @@ af=ae}else
 var
 af=g;return af;case
 8:var
-aW=fO(g,c,f),aX=v(f,f);return i(h,1,[3,[4,[5,a[2],a[1]],aX],aW]);case
+aW=fX(g,c,f),aX=v(f,f);return i(h,1,[3,[4,[5,a[2],a[1]],aX],aW]);case
 9:var
-ag=a[1],F=oj(g,c);if(F){var
-aY=F[1],az=[0,d,b],aA=aq(function(a,b){var
-c=v(aD(a),f);return[2,[4,v(aD(a),f),c],b]},az,aY);return i(h,1,[3,[4,[4,ag,ag],v(f,f)],aA])}return F;case
+ag=a[1],E=ox(g,c);if(E){var
+aY=E[1],az=[0,d,b],aA=am(function(a,b){var
+c=v(aE(a),f);return[2,[4,v(aE(a),f),c],b]},az,aY);return i(h,1,[3,[4,[4,ag,ag],v(f,f)],aA])}return E;case
 10:var
-aZ=a[3],a0=a[2],a1=a[1],aB=function(b,a){return[2,b,a]},aC=function(a){return M(aB,c,a)},aE=e(function(a){return ok(a,c)},g);return on(h,function(a){return ol(aE,aC,a)},f,a1,a0,aZ);case
+aZ=a[3],a0=a[2],a1=a[1],aB=function(b,a){return[2,b,a]},aC=function(a){return M(aB,c,a)},aD=e(function(a){return oy(a,c)},g);return oB(h,function(a){return oz(aD,aC,a)},f,a1,a0,aZ);case
 11:var
-ah=a[4],G=E(g,a[1]);if(G){var
-H=ok(G[1],c);if(H){var
-n=H[1][1][2],a2=dn(a[3]),a3=dn(a[2]),r=M(function(b,a){return[3,b,a]},a3,a2),ai=i(h,1,v(n,n));if(ai){var
+ah=a[4],G=F(g,a[1]);if(G){var
+H=oy(G[1],c);if(H){var
+n=H[1][1][2],a2=dr(a[3]),a3=dr(a[2]),r=M(function(b,a){return[3,b,a]},a3,a2),ai=i(h,1,v(n,n));if(ai){var
 a4=v(n,n),a5=v(r,n),a6=[5,[4,v(r,n),a5],a4];return i(h,1,[3,[4,ah,ah],[3,v(r,r),a6]])}var
 aj=ai}else
 var
@@ -3674,29 +3860,29 @@ ak=aj}else
 var
 ak=G;return ak;case
 12:var
-o=a[3],s=a[2],I=E(g,a[1]);if(I){var
-j=I[1],al=i(h,0,s),am=al?i(h,0,o):al;if(am){var
+o=a[3],s=a[2],I=F(g,a[1]);if(I){var
+j=I[1],al=i(h,0,s),an=al?i(h,0,o):al;if(an){var
 a7=a[4];switch(j[0]){case
 0:var
-w=j[4],x=[5,w,[6,b7(j[1],j[2],j[3],w,c)]],J=[4,x,[2,s,[4,[5,[4,o,o],w],[4,x,x]]]];break;case
+w=j[4],x=[5,w,[6,b_(j[1],j[2],j[3],w,c)]],J=[4,x,[2,s,[4,[5,[4,o,o],w],[4,x,x]]]];break;case
 1:var
-R=j[2],S=j[1],aF=aQ(S,R,c),J=[2,s,[5,[4,o,o],[6,v(aQ(S,R,c),aF)]]];break;default:var
+Q=j[2],R=j[1],aF=aS(R,Q,c),J=[2,s,[5,[4,o,o],[6,v(aS(R,Q,c),aF)]]];break;default:var
 J=s}var
 K=i(h,1,[3,J,a7])}else
 var
-K=am;if(K){if(2===j[0])return i(h,1,v(f,f));var
-an=1}else
+K=an;if(K){if(2===j[0])return i(h,1,v(f,f));var
+ao=1}else
 var
-an=K;var
-ao=an}else
+ao=K;var
+ap=ao}else
 var
-ao=I;return ao;case
+ap=I;return ap;case
 13:if(g){var
 t=g[2];if(t){var
 u=t[2];if(u){if(u[2])return 0;var
-ap=u[1],ar=t[1],as=g[1],at=a[1],L=E([0,f[1],[0,f[2],[0,f[3],0]]],at);if(L){var
-N=E([0,as,[0,ar,[0,ap,0]]],at);if(N){var
-au=N[1],a8=bG(au,c),a9=b8(au,c),a_=bG(ap,c),a$=P(f[3],a_),ba=bG(ar,c),bb=P(f[2],ba),bc=bG(as,c),bd=P(f[1],bc),be=M(function(b,a){return[2,b,a]},bd,bb),bf=M(function(b,a){return[2,b,a]},be,a$);return oo(h,v,a[2],a[3],L[1],bf,a9,a8)}var
+aq=u[1],ar=t[1],as=g[1],at=a[1],L=F([0,f[1],[0,f[2],[0,f[3],0]]],at);if(L){var
+N=F([0,as,[0,ar,[0,aq,0]]],at);if(N){var
+au=N[1],a8=bJ(au,c),a9=b$(au,c),a_=bJ(aq,c),a$=S(f[3],a_),ba=bJ(ar,c),bb=S(f[2],ba),bc=bJ(as,c),bd=S(f[1],bc),be=M(function(b,a){return[2,b,a]},bd,bb),bf=M(function(b,a){return[2,b,a]},be,a$);return oC(h,v,a[2],a[3],L[1],bf,a9,a8)}var
 av=N}else
 var
 av=L;var
@@ -3710,57 +3896,57 @@ ay=ax}else
 var
 ay=g;return ay;case
 15:var
-bg=oh(a[1],g,c,f),bh=v(f,f);return i(h,1,[3,[4,a[2],bh],bg]);default:O=1}if(O)return 0;var
-B=E(g,z);return B?i(h,1,A(B[1])):B}function
-fP(g,h,f,c,a){var
-m=fN(g,h,f,c);if(m)if(typeof
-a==="number")return 0===a?aj(function(e){var
-a=jS(e,c);return a?i(g,0,[3,[0,d,b],a[1]]):a},f):nc(vF,e(function(b){var
-a=bG(b,c);return[0,a[1],[0,a[2],[0,a[3],0]]]},f));else{if(0===a[0]){var
-j=E(h[3],a[1]);if(j){var
-p=j[1],q=oi(a[3]);return op(g,f,c,oi(a[2]),q,p)}return j}var
-k=E(h[3],a[1]);if(k){var
-l=E(f,a[2]);if(l){var
-n=l[1],r=k[1],s=b8(n,c);return op(g,f,c,b8(n,c),s,r)}var
+bg=ov(a[1],g,c,f),bh=v(f,f);return i(h,1,[3,[4,a[2],bh],bg]);default:O=1}if(O)return 0;var
+B=F(g,z);return B?i(h,1,A(B[1])):B}function
+fY(g,h,f,c,a){var
+m=fW(g,h,f,c);if(m)if(typeof
+a==="number")return 0===a?ag(function(e){var
+a=jV(e,c);return a?i(g,0,[3,[0,d,b],a[1]]):a},f):nf(vV,e(function(b){var
+a=bJ(b,c);return[0,a[1],[0,a[2],[0,a[3],0]]]},f));else{if(0===a[0]){var
+j=F(h[3],a[1]);if(j){var
+p=j[1],q=ow(a[3]);return oD(g,f,c,ow(a[2]),q,p)}return j}var
+k=F(h[3],a[1]);if(k){var
+l=F(f,a[2]);if(l){var
+n=l[1],r=k[1],s=b$(n,c);return oD(g,f,c,b$(n,c),s,r)}var
 o=l}else
 var
 o=k;return o}return m}function
-bP(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-oq(a){switch(a[0]){case
+bS(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+oE(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=bP(b[3]),f=bP(b[2]);return[0,bP(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=bS(b[3]),f=bS(b[2]);return[0,bS(b[1]),f,e,d,c];case
 1:var
-g=x(bP,a[3]),h=bP(a[2]);return[1,bP(a[1]),h,g];default:return[2,bP(a[1])]}}function
-jU(a){return 0===a[0]?bP(a[1]):[0,a[1],a[2],a[4][1]]}function
-or(b,a){var
-c=jU(a[2]);return fN(b,a,e(oq,a[1]),c)}function
-jV(b,a,c){var
-d=[0,c,ay(b,a)];return g(ao(b,a),d)}function
-bi(c,a){if(c){if(a){var
-e=bi(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
-os(e,c,a){if(e){if(c){var
-f=c[1],g=os(e[2],c[2],a),h=bi(f,a),i=[4,bi(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
-ot(b,a){if(b){if(a){var
-c=b[1],e=ot(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aU(function(a){return[4,c,a]},h,g,f,e)}var
+g=x(bS,a[3]),h=bS(a[2]);return[1,bS(a[1]),h,g];default:return[2,bS(a[1])]}}function
+jX(a){return 0===a[0]?bS(a[1]):[0,a[1],a[2],a[4][1]]}function
+oF(b,a){var
+c=jX(a[2]);return fW(b,a,e(oE,a[1]),c)}function
+jY(b,a,c){var
+d=[0,c,az(b,a)];return g(aq(b,a),d)}function
+bj(c,a){if(c){if(a){var
+e=bj(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
+oG(e,c,a){if(e){if(c){var
+f=c[1],g=oG(e[2],c[2],a),h=bj(f,a),i=[4,bj(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
+oH(b,a){if(b){if(a){var
+c=b[1],e=oH(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aL(function(a){return[4,c,a]},h,g,f,e)}var
 d=a}else
 var
 d=b;return d}function
-ou(b,c,a){var
-d=[0,c,ay([0,b],a)];return g(ao(b,a),d)}function
-ov(a,b){var
-e=n(a,vG),c=e||n(a,vH),d=c?n(f(b),a):c;return d?l(function(b){return n(f(b),a)},b):d}function
-ow(a){if(a){var
+oI(b,c,a){var
+d=[0,c,az([0,b],a)];return g(aq(b,a),d)}function
+oJ(a,b){var
+e=m(a,vW),c=e||m(a,vX),d=c?m(f(b),a):c;return d?l(function(b){return m(f(b),a)},b):d}function
+oK(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=ow(a[2]);return x(function(a){return[0,c,a]},d)}return b}return vI}function
-hs(a){if(a){var
+c=b[1],d=oK(a[2]);return x(function(a){return[0,c,a]},d)}return b}return vY}function
+hF(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=hs(a[2]);return x(function(a){return[0,c,a]},d)}return b}return vJ}function
-ox(a,l,k,f){var
-b=aC(a,l);if(b){var
-c=aC(a,k);if(c){var
-d=de(a,f);if(d){var
-e=g4(a,f);if(e)var
-m=t(a,b[1],e[1]),g=[0,C(t(a,c[1],d[1]),m)];else
+c=b[1],d=hF(a[2]);return x(function(a){return[0,c,a]},d)}return b}return vZ}function
+oL(a,l,k,f){var
+b=aD(a,l);if(b){var
+c=aD(a,k);if(c){var
+d=dg(a,f);if(d){var
+e=hb(a,f);if(e)var
+m=s(a,b[1],e[1]),g=[0,B(s(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -3772,45 +3958,45 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-oy(a){return a?K(a[1][2],d):a}function
-bQ(a){return a?K(d,a[1][1]):a}function
-oz(d,a){return i(d,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
-oA(d,a){if(a){var
-b=aC(d,a[1]);if(b)var
-c=oA(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+oM(a){return a?I(a[1][2],d):a}function
+bT(a){return a?I(d,a[1][1]):a}function
+oN(d,a){return i(d,0,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],a])}function
+oO(d,a){if(a){var
+b=aD(d,a[1]);if(b)var
+c=oO(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return vK}function
-ht(d,a){if(a){var
-b=oA(d,a[1]);if(b)var
-c=ht(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+e=b;return e}return v0}function
+hG(d,a){if(a){var
+b=oO(d,a[1]);if(b)var
+c=hG(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return vL}function
-oB(b,a){return aq(function(c,a){return A(S(b,c),a)},u,a)}function
-oC(b,d){function
+e=b;return e}return v1}function
+oP(b,a){return am(function(c,a){return z(P(b,c),a)},t,a)}function
+oQ(b,d){function
 c(e,d,c,a){var
-f=t(b,d,c);return C(t(b,e,a),f)}if(d){var
+f=s(b,d,c);return B(s(b,e,a),f)}if(d){var
 e=d[1];if(e){var
 f=e[2];if(f){var
-g=f[2],q=f[1],r=e[1],a=d[2];if(g){if(g[2])return u;if(a){var
+g=f[2],q=f[1],r=e[1],a=d[2];if(g){if(g[2])return t;if(a){var
 h=a[1];if(h){var
 i=h[2];if(i){var
-j=i[2];if(j){if(j[2])return u;var
+j=i[2];if(j){if(j[2])return t;var
 k=a[2];if(k){var
 l=k[1];if(l){var
 m=l[2];if(m){var
-n=m[2];if(n){if(n[2])return u;if(k[2])return u;var
-s=n[1],v=m[1],w=l[1],x=j[1],y=i[1],z=h[1],B=c(z,y,w,v),D=t(b,g[1],B),E=t(b,q,c(z,x,w,s));return A(C(t(b,r,c(y,x,v,s)),E),D)}return u}return u}return u}return u}return u}return u}return u}return u}if(a){var
+n=m[2];if(n){if(n[2])return t;if(k[2])return t;var
+u=n[1],v=m[1],w=l[1],x=j[1],y=i[1],A=h[1],C=c(A,y,w,v),D=s(b,g[1],C),E=s(b,q,c(A,x,w,u));return z(B(s(b,r,c(y,x,v,u)),E),D)}return t}return t}return t}return t}return t}return t}return t}return t}if(a){var
 o=a[1];if(o){var
-p=o[2];return p?p[2]?u:a[2]?u:c(r,q,o[1],p[1]):u}return u}return u}return u}return u}return u}function
-oD(a,p,m,s,g,j){function
-a1(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bi(a,a)]}var
-bM=m[1];function
-B(c){var
-a=[0,d,b];return aq(function(a,b){var
-d=bi(a,c);return[2,[4,bi(a,c),d],b]},a,bM)}function
+p=o[2];return p?p[2]?t:a[2]?t:c(r,q,o[1],p[1]):t}return t}return t}return t}return t}return t}function
+oR(a,p,n,t,g,j){function
+a1(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bj(a,a)]}var
+bM=n[1];function
+C(c){var
+a=[0,d,b];return am(function(a,b){var
+d=bj(a,c);return[2,[4,bj(a,c),d],b]},a,bM)}function
 D(g,e){var
-a=E(m[1],g);if(a){var
-b=a[1],c=n(f(b),p);if(c)return h(e,b);var
+a=F(n[1],g);if(a){var
+b=a[1],c=m(f(b),p);if(c)return h(e,b);var
 d=c}else
 var
 d=a;return d}var
@@ -3819,38 +4005,38 @@ b=0;if(typeof
 j==="number")b=1;else
 switch(j[0]){case
 6:var
-a=vM;break;case
+a=v2;break;case
 13:case
 14:var
-a=vN;break;default:b=1}if(b)var
-a=p;return n(f(c),a)},g);if(a2){var
+a=v3;break;default:b=1}if(b)var
+a=p;return m(f(c),a)},g);if(a2){var
 w=0;if(typeof
 j==="number")w=1;else
 switch(j[0]){case
 0:if(g){if(g[2])return 0;var
-a4=g[1],bN=B(a4);return i(a,1,[3,a1(j[1],a4),bN])}return g;case
+a4=g[1],bN=C(a4);return i(a,1,[3,a1(j[1],a4),bN])}return g;case
 1:if(g){if(g[2])return 0;var
-a5=g[1],bO=a1(j[1],a5);return i(a,1,[3,B(a5),bO])}return g;case
+a5=g[1],bO=a1(j[1],a5);return i(a,1,[3,C(a5),bO])}return g;case
 2:if(g)return 0;var
-bP=j[2],bR=function(b){if(typeof
-b!=="number"&&0===b[0])return i(a,1,[3,bP,b[1]]);return 0},ai=bR,ah=j[1];break;case
+bP=j[2],bQ=function(b){if(typeof
+b!=="number"&&0===b[0])return i(a,1,[3,bP,b[1]]);return 0},ai=bQ,ah=j[1];break;case
 3:if(g)return 0;var
-bS=j[2],bT=function(b){if(typeof
-b!=="number"&&0===b[0])return i(a,1,[3,b[1],bS]);return 0},ai=bT,ah=j[1];break;case
+bR=j[2],bS=function(b){if(typeof
+b!=="number"&&0===b[0])return i(a,1,[3,b[1],bR]);return 0},ai=bS,ah=j[1];break;case
 4:if(g)return 0;var
 a6=j[3],a7=j[2],bU=function(d){var
-h=n(s,0);if(typeof
+h=m(t,0);if(typeof
 d!=="number"&&1===d[0]){var
-e=d[2],f=d[1],g=i(a,0,[3,[2,a7,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],a6]);return g?h?oy(ox(a,f,e,a7)):bQ(ox(a,f,e,a6)):g}return 0},ai=bU,ah=j[1];break;case
+e=d[2],f=d[1],g=i(a,0,[3,[2,a7,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b]],a6]);return g?h?oM(oL(a,f,e,a7)):bT(oL(a,f,e,a6)):g}return 0},ai=bU,ah=j[1];break;case
 5:if(g){var
-F=g[2];if(F){if(F[2])return 0;var
-ak=F[1],al=g[1],a8=j[1],bV=bi(al,al),bW=[4,[4,a8,a8],[4,B(ak),bV]],bX=bi(ak,ak);return i(a,1,[3,[4,B(al),bX],bW])}var
-a9=F}else
+E=g[2];if(E){if(E[2])return 0;var
+ak=E[1],al=g[1],a8=j[1],bV=bj(al,al),bW=[4,[4,a8,a8],[4,C(ak),bV]],bX=bj(ak,ak);return i(a,1,[3,[4,C(al),bX],bW])}var
+a9=E}else
 var
 a9=g;return a9;case
 6:var
 a_=j[2],bY=j[3],bZ=function(b){var
-c=[5,bY,a_],d=i(a,1,a_);return d?i(a,1,[3,bi(b,b),[4,c,c]]):d},a$=D(j[1],bZ);if(a$){if(m[4]){if(g){var
+c=[5,bY,a_],d=i(a,1,a_);return d?i(a,1,[3,bj(b,b),[4,c,c]]):d},a$=D(j[1],bZ);if(a$){if(n[4]){if(g){var
 G=g[1];if(G){if(G[2])return 0;if(g[2])return 0;var
 ba=G[1];return i(a,1,[4,ba,ba])}var
 bb=G}else
@@ -3860,32 +4046,32 @@ bc=1}else
 var
 bc=a$;return bc;case
 7:if(g){if(g[2])return 0;var
-bd=g[1],am=j[1],b0=j[3],b1=j[2],an=hs(m[7]);if(an){var
-H=an[1],ao=E(bd,am);if(ao){var
-b2=ao[1],be=n(f(H),p),bf=be?l(function(a){return n(f(a),p)},H):be;if(bf){var
-ap=E(H,am);if(ap){var
-b3=ap[1];return D(am,function(b){return oo(a,bi,b1,b0,b2,ot(bd,H),b,b3)})}var
-bg=ap}else
+bd=g[1],an=j[1],b0=j[3],b1=j[2],ao=hF(n[7]);if(ao){var
+H=ao[1],ap=F(bd,an);if(ap){var
+b2=ap[1],be=m(f(H),p),bf=be?l(function(a){return m(f(a),p)},H):be;if(bf){var
+aq=F(H,an);if(aq){var
+b3=aq[1];return D(an,function(b){return oC(a,bj,b1,b0,b2,oH(bd,H),b,b3)})}var
+bg=aq}else
 var
 bg=bf;var
 bh=bg}else
 var
-bh=ao;var
-bj=bh}else
+bh=ap;var
+bi=bh}else
 var
-bj=an;var
-bk=bj}else
+bi=ao;var
+bk=bi}else
 var
 bk=g;return bk;case
 8:if(g){if(g[2])return 0;var
-ar=g[1],b4=os(j[1],m[1],ar),b5=bi(ar,ar);return i(a,1,[3,[4,j[2],b5],b4])}return g;case
+ar=g[1],b4=oG(j[1],n[1],ar),b5=bj(ar,ar);return i(a,1,[3,[4,j[2],b5],b4])}return g;case
 9:if(g)return 0;var
 bl=j[3],bm=j[2],b6=function(e){var
 f=i(a,1,bm),g=f?i(a,0,bl):f;if(g){var
-b=aC(a,bi(e,e));if(b){var
-c=aC(a,[5,bl,bm]);if(c){var
-d=jg(a,c[1]);if(d){var
-l=S(a,d[1]);return bQ([0,C(b[1],l)])}var
+b=aD(a,bj(e,e));if(b){var
+c=aD(a,[5,bl,bm]);if(c){var
+d=js(a,c[1]);if(d){var
+l=P(a,d[1]);return bT([0,B(b[1],l)])}var
 h=d}else
 var
 h=c;var
@@ -3900,11 +4086,11 @@ b7=j[2],b8=function(b){var
 c=[4,b7,b[3]],d=i(a,1,c);return d?i(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},bo=b8,bn=j[1];w=2;break;case
 11:if(g)return 0;var
 b9=j[2],b_=function(e){var
-b=de(a,b9);if(b){var
-c=aC(a,e[3]);if(c){var
-d=aC(a,e[2]);if(d){var
-f=t(a,b[1],c[1]),g=bQ([0,f]);if(g){var
-k=S(a,d[1]);return bQ([0,C(S(a,f),k)])}var
+b=dg(a,b9);if(b){var
+c=aD(a,e[3]);if(c){var
+d=aD(a,e[2]);if(d){var
+f=s(a,b[1],c[1]),g=bT([0,f]);if(g){var
+k=P(a,d[1]);return bT([0,B(P(a,f),k)])}var
 h=g}else
 var
 h=d;var
@@ -3915,20 +4101,20 @@ j=i}else
 var
 j=b;return j},bo=b_,bn=j[1];w=2;break;case
 12:if(g)return 0;var
-au=ow(m[3]);if(au){var
-bq=au[1],b$=j[1],br=bD(function(b,a){return[4,b,a[3]]},bq,b$),av=e(function(a){return a[1]},bq),x=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(av){var
+au=oK(n[3]);if(au){var
+bq=au[1],b$=j[1],br=by(function(b,a){return[4,b,a[3]]},bq,b$),av=e(function(a){return a[1]},bq),x=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(av){var
 O=av[1];if(O){var
-P=O[2];if(P){var
-Q=P[2],aD=P[1],aE=O[1],o=av[2];if(Q)if(Q[2]||!o)var
+R=O[2];if(R){var
+S=R[2],aC=R[1],aE=O[1],o=av[2];if(S)if(S[2]||!o)var
 k=[0,d,b];else{var
-R=o[1];if(R){var
-T=R[2];if(T){var
-U=T[2];if(U&&!U[2]){var
-V=o[2];if(V){var
-W=V[1];if(W){var
-X=W[2];if(X){var
-Y=X[2];if(Y&&!(Y[2]||V[2]))var
-aF=Y[1],aG=X[1],aH=W[1],aI=U[1],aJ=T[1],aK=R[1],bF=x(aK,aJ,aH,aG),bG=[4,Q[1],bF],bH=[4,aD,x(aK,aI,aH,aF)],k=[2,[3,[4,aE,x(aJ,aI,aG,aF)],bH],bG];else
+T=o[1];if(T){var
+U=T[2];if(U){var
+V=U[2];if(V&&!V[2]){var
+W=o[2];if(W){var
+X=W[1];if(X){var
+Y=X[2];if(Y){var
+Z=Y[2];if(Z&&!(Z[2]||W[2]))var
+aF=Z[1],aG=Y[1],aH=X[1],aI=V[1],aJ=U[1],aK=T[1],bF=x(aK,aJ,aH,aG),bG=[4,S[1],bF],bH=[4,aC,x(aK,aI,aH,aF)],k=[2,[3,[4,aE,x(aJ,aI,aG,aF)],bH],bG];else
 var
 k=[0,d,b]}else
 var
@@ -3944,8 +4130,8 @@ k=[0,d,b]}else
 var
 k=[0,d,b]}else
 if(o){var
-Z=o[1];if(Z)var
-_=Z[2],k=_?_[2]?[0,d,b]:o[2]?[0,d,b]:x(aE,aD,Z[1],_[1]):[0,d,b];else
+_=o[1];if(_)var
+$=_[2],k=$?$[2]?[0,d,b]:o[2]?[0,d,b]:x(aE,aC,_[1],$[1]):[0,d,b];else
 var
 k=[0,d,b]}else
 var
@@ -3961,19 +4147,19 @@ bt=bs}else
 var
 bt=au;return bt;case
 13:var
-ca=j[2],aw=E(m[4],j[1]);if(aw){var
+ca=j[2],aw=F(n[4],j[1]);if(aw){var
 ax=aw[1];if(ax){var
 bu=function(a){if(ca){var
-c=h(m[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=h(m[5],a);return M(function(b,a){return[3,b,a]},e,c)}return a},I=j[4],u=bu(dn(j[3])),J=ax[1][1][2],r=v(J,u);if(oz(a,I)){if(s){if(s[1])return 0;if(g){var
+c=h(n[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=h(n[5],a);return M(function(b,a){return[3,b,a]},e,c)}return a},I=j[4],u=bu(dr(j[3])),J=ax[1][1][2],q=v(J,u);if(oN(a,I)){if(t){if(t[1])return 0;if(g){var
 y=g[1];if(y){var
 z=y[2];if(z){var
 A=z[2];if(A){if(A[2])return 0;if(g[2])return 0;var
-aa=bu([0,y[1],z[1],A[1]]),aL=v(J,aa),aM=i(a,1,r);if(aM){var
-ab=de(a,I);if(ab){var
-aN=ab[1],ac=aC(a,[4,v(u,u),[4,aL,aL]]);if(ac){var
-ad=aC(a,[4,[4,r,r],v(aa,aa)]);if(ad){var
-aO=bQ([0,aN]);if(aO){var
-bI=ad[1],bJ=ac[1];return bQ([0,C(t(a,S(a,aN),bJ),bI)])}var
+aa=bu([0,y[1],z[1],A[1]]),aL=v(J,aa),aM=i(a,1,q);if(aM){var
+ab=dg(a,I);if(ab){var
+aN=ab[1],ac=aD(a,[4,v(u,u),[4,aL,aL]]);if(ac){var
+ad=aD(a,[4,[4,q,q],v(aa,aa)]);if(ad){var
+aO=bT([0,aN]);if(aO){var
+bI=ad[1],bJ=ac[1];return bT([0,B(s(a,P(a,aN),bJ),bI)])}var
 aP=aO}else
 var
 aP=ad;var
@@ -3997,12 +4183,12 @@ var
 aV=y;var
 aW=aV}else
 var
-aW=g;return aW}return g?0:i(a,1,[3,[0,d,b],r])}if(s)return 0;if(g)return 0;var
-aX=i(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],I]);if(aX){var
-ae=de(a,I);if(ae){var
-af=aC(a,r);if(af){var
-bK=v(J,J),ag=aC(a,[6,[4,v(u,u),bK]]);if(ag){var
-bL=t(a,ae[1],ag[1]);return oy([0,C(af[1],bL)])}var
+aW=g;return aW}return g?0:i(a,1,[3,[0,d,b],q])}if(t)return 0;if(g)return 0;var
+aX=i(a,0,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],I]);if(aX){var
+ae=dg(a,I);if(ae){var
+af=aD(a,q);if(af){var
+bK=v(J,J),ag=aD(a,[6,[4,v(u,u),bK]]);if(ag){var
+bL=s(a,ae[1],ag[1]);return oM([0,B(af[1],bL)])}var
 aY=ag}else
 var
 aY=af;var
@@ -4019,32 +4205,32 @@ bv=aw;return bv;case
 K=g[1];if(K){var
 L=K[2];if(L){var
 N=L[2];if(N){if(N[2])return 0;if(g[2])return 0;var
-cb=j[3],cc=j[2],cd=j[1],ce=[0,K[1],L[1],N[1]],cf=m[5],cg=m[4];return on(a,function(a){return ol(cg,cf,a)},ce,cd,cc,cb)}var
+cb=j[3],cc=j[2],cd=j[1],ce=[0,K[1],L[1],N[1]],cf=n[5],cg=n[4];return oB(a,function(a){return oz(cg,cf,a)},ce,cd,cc,cb)}var
 bw=N}else
 var
 bw=L;var
 bx=bw}else
 var
 bx=K;var
-by=bx}else
+bz=bx}else
 var
-by=g;return by;case
+bz=g;return bz;case
 17:if(g)return 0;var
-bz=j[2],ay=j[1],ch=j[3],az=hs(m[7]);if(az){var
-aA=az[1],bA=ov(p,aA),bB=bA?n(f(bz),p):bA;if(bB){var
-aB=E(aA,ay);if(aB){var
+bA=j[2],ay=j[1],ch=j[3],az=hF(n[7]);if(az){var
+aA=az[1],bB=oJ(p,aA),bC=bB?m(f(bA),p):bB;if(bC){var
+aB=F(aA,ay);if(aB){var
 ci=aB[1];return D(ay,function(x){var
-e=ht(a,aA);if(e){var
-j=e[1],f=ht(a,[0,bz,[0,x,[0,ci,0]]]);if(f){var
+e=hG(a,aA);if(e){var
+j=e[1],f=hG(a,[0,bA,[0,x,[0,ci,0]]]);if(f){var
 b=f[1];if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){if(d[2])return 0;var
-g=aC(a,ch);if(g){var
-k=g[1],l=S(a,oC(a,j)),h=oC(a,ou(ay,b[1],j)),m=bQ([0,k]),o=m?bQ([0,l]):m;if(o)var
-y=n(s,0)?h:$(h),i=bQ([0,y]);else
+g=aD(a,ch);if(g){var
+k=g[1],l=P(a,oQ(a,j)),h=oQ(a,oI(ay,b[1],j)),n=bT([0,k]),o=n?bT([0,l]):n;if(o)var
+y=m(t,0)?h:Q(h),i=bT([0,y]);else
 var
 i=o;if(i){var
-z=oB(a,c[1]),A=t(a,t(a,S(a,k),l),z),B=oB(a,d[1]);return bQ([0,C(t(a,S(a,h),B),A)])}var
+z=oP(a,c[1]),A=s(a,s(a,P(a,k),l),z),C=oP(a,d[1]);return bT([0,B(s(a,P(a,h),C),A)])}var
 p=i}else
 var
 p=g;var
@@ -4063,101 +4249,101 @@ v=f;var
 w=v}else
 var
 w=e;return w})}var
-bC=aB}else
+bD=aB}else
 var
-bC=bB;var
-bE=bC}else
+bD=bC;var
+bE=bD}else
 var
 bE=az;return bE;default:w=1}switch(w){case
 1:var
 a3=0;break;case
 2:var
-as=E(m[3],bn);if(as){var
+as=F(n[3],bn);if(as){var
 at=as[1];if(at)return bo(at[1]);var
 bp=at}else
 var
 bp=as;return bp;default:var
-aj=E(m[2],ah);return aj?ai(aj[1]):aj}}else
+aj=F(n[2],ah);return aj?ai(aj[1]):aj}}else
 var
 a3=a2;return a3}function
-fQ(d,f,a){if(typeof
+fZ(d,f,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-e=a[4];if(oz(d,e)&&I(i(d,0,[3,e,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])))return vQ;return vR;case
+e=a[4];if(oN(d,e)&&J(i(d,0,[3,e,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b]])))return v6;return v7;case
 16:return f;case
 4:case
-17:return vP}return vO}function
-d1(e,d,g,f){var
+17:return v5}return v4}function
+d4(e,d,g,f){var
 b=g,a=f;for(;;){if(a){var
-c=a[1];if(aF(b,fQ(e,d,c)))return[0,[0,c,b]];var
-h=a[2],b=dJ(b,fQ(e,d,c)),a=h;continue}return a}}function
-fR(a){return e(function(a){return[0,a,b]},a)}function
-jW(f,o,g,c,n,a){if(typeof
+c=a[1];if(aF(b,fZ(e,d,c)))return[0,[0,c,b]];var
+h=a[2],b=dN(b,fZ(e,d,c)),a=h;continue}return a}}function
+f0(a){return e(function(a){return[0,a,b]},a)}function
+jZ(f,o,g,c,n,a){if(typeof
 a==="number"){if(0===a){var
-s=c[6];return aj(function(a){return i(f,0,[3,[0,d,b],a])},s)}var
-h=hs(c[7]);return h?nc(g,h[1]):h}else{if(0===a[0]){var
-j=d1(f,o,a[1],n);if(j){var
-p=j[1],t=p[1],u=e(fR,a[2]);return oD(f,g,c,p[2],u,t)}return j}var
-k=d1(f,o,a[1],n);if(k){var
+s=c[6];return ag(function(a){return i(f,0,[3,[0,d,b],a])},s)}var
+h=hF(c[7]);return h?nf(g,h[1]):h}else{if(0===a[0]){var
+j=d4(f,o,a[1],n);if(j){var
+p=j[1],t=p[1],u=e(f0,a[2]);return oR(f,g,c,p[2],u,t)}return j}var
+k=d4(f,o,a[1],n);if(k){var
 q=k[1],l=q[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=E(c[1],a[2]);return m?oD(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
+m=F(c[1],a[2]);return m?oR(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
 r=0}else
 var
 r=k;return r}}function
-jX(a){var
-b=aD(a[1]),c=P(v(b,a[2]),b),d=a[2];return M(function(b,a){return[3,b,a]},d,c)}function
-eT(a){return aD(jX(a))}function
-fS(c){var
-a=eT(c),b=aD(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-hu(a,b){return aQ(a[3],a[4],b)}function
-fT(a,b){var
-c=hu(a,b);return v(eT(a),c)}function
-fU(a,b){var
-c=hu(a,b);return v(fS(a),c)}function
-oE(a,b){var
-c=hu(a,b);return v(aD(a[1]),c)}function
-hv(b,a){var
-c=fU(b,a),d=fT(b,a);return[2,[4,d,d],[4,c,c]]}function
-fV(a,d){var
-h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=oE(a,d);return[5,[2,hv(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-jY(a,b){var
-f=a[5],c=[3,fV(a,b),f],d=oE(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-d2(a,b){var
-c=jY(a,b);return ct(a[7],c)}function
-jZ(b,a){var
-c=hv(b,a),d=fU(b,a),e=[4,d2(b,a),d],f=fT(b,a);return[5,[2,[4,fV(b,a),f],e],c]}function
-j0(b,a){var
-c=hv(b,a),d=fT(b,a),e=[4,d2(b,a),d],f=fU(b,a);return[5,[3,[4,fV(b,a),f],e],c]}function
+j0(a){var
+b=aE(a[1]),c=S(v(b,a[2]),b),d=a[2];return M(function(b,a){return[3,b,a]},d,c)}function
+eX(a){return aE(j0(a))}function
+f1(c){var
+a=eX(c),b=aE(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+hH(a,b){return aS(a[3],a[4],b)}function
+f2(a,b){var
+c=hH(a,b);return v(eX(a),c)}function
+f3(a,b){var
+c=hH(a,b);return v(f1(a),c)}function
+oS(a,b){var
+c=hH(a,b);return v(aE(a[1]),c)}function
+hI(b,a){var
+c=f3(b,a),d=f2(b,a);return[2,[4,d,d],[4,c,c]]}function
+f4(a,d){var
+h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=oS(a,d);return[5,[2,hI(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
 j1(a,b){var
-c=fS(a),d=P(j0(a,b),c),e=eT(a),f=P(jZ(a,b),e),g=M(function(b,a){return[2,b,a]},f,d),h=P(a[5],g),i=a[3];return M(function(b,a){return[2,b,a]},i,h)}function
-j2(a,c){var
-d=j1(a,c),e=a[4],f=M(function(b,a){return[2,b,a]},c,e),g=M(function(b,a){return[3,b,a]},f,d),h=d2(a,c);return P([5,[0,b,b],[4,a[5],h]],g)}function
-d3(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
-d4(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
-j3(a,c,b){var
-d=[4,d3(a),b],e=[2,[4,d4(a),c],d],f=[4,d4(a),b];return[0,[3,[4,d3(a),c],f],e]}function
-oF(c,a){var
-b=j3(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-cu(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-oG(a,d){var
-e=v(a,a),f=cu(a,d),g=P([0,c(2,b),b],f),h=v(a,d),i=P([4,[0,c(2,b),b],h],a),j=P([3,[0,b,b],e],d),k=M(function(b,a){return[2,b,a]},j,i);return P([5,[0,b,b],[2,[0,b,b],e]],M(function(b,a){return[2,b,a]},k,g))}function
-dp(j,b,a){switch(j[0]){case
-0:return b?b[2]?a:oF(b[1],a):a;case
+f=a[5],c=[3,f4(a,b),f],d=oS(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+d5(a,b){var
+c=j1(a,b);return cx(a[7],c)}function
+j2(b,a){var
+c=hI(b,a),d=f3(b,a),e=[4,d5(b,a),d],f=f2(b,a);return[5,[2,[4,f4(b,a),f],e],c]}function
+j3(b,a){var
+c=hI(b,a),d=f2(b,a),e=[4,d5(b,a),d],f=f3(b,a);return[5,[3,[4,f4(b,a),f],e],c]}function
+j4(a,b){var
+c=f1(a),d=S(j3(a,b),c),e=eX(a),f=S(j2(a,b),e),g=M(function(b,a){return[2,b,a]},f,d),h=S(a[5],g),i=a[3];return M(function(b,a){return[2,b,a]},i,h)}function
+j5(a,c){var
+d=j4(a,c),e=a[4],f=M(function(b,a){return[2,b,a]},c,e),g=M(function(b,a){return[3,b,a]},f,d),h=d5(a,c);return S([5,[0,b,b],[4,a[5],h]],g)}function
+d6(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
+d7(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
+j6(a,c,b){var
+d=[4,d6(a),b],e=[2,[4,d7(a),c],d],f=[4,d7(a),b];return[0,[3,[4,d6(a),c],f],e]}function
+oT(c,a){var
+b=j6(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+cy(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+oU(a,d){var
+e=v(a,a),f=cy(a,d),g=S([0,c(2,b),b],f),h=v(a,d),i=S([4,[0,c(2,b),b],h],a),j=S([3,[0,b,b],e],d),k=M(function(b,a){return[2,b,a]},j,i);return S([5,[0,b,b],[2,[0,b,b],e]],M(function(b,a){return[2,b,a]},k,g))}function
+ds(j,b,a){switch(j[0]){case
+0:return b?b[2]?a:oT(b[1],a):a;case
 1:if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){if(d[2])return a;var
-g=j3(b[1],a[2],a[3]),i=g[1],h=j3(c[1],g[2],a[1]);return oF(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
+g=j6(b[1],a[2],a[3]),i=g[1],h=j6(c[1],g[2],a[1]);return oT(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
 e=b[2];if(e){var
-f=e[2];return f?f[2]?a:oG([0,b[1],e[1],f[1]],a):a}return a}return a}}function
-oH(c){var
-a=cR(c);return a?eC(a[1],[0,d,b]):a}function
-oI(a,n,k,j){if(oH(j)){var
+f=e[2];return f?f[2]?a:oU([0,b[1],e[1],f[1]],a):a}return a}return a}}function
+oV(c){var
+a=cU(c);return a?eE(a[1],[0,d,b]):a}function
+oW(a,n,k,j){if(oV(j)){var
 q=n?[3,[0,d,b],k]:k;return i(a,0,q)}var
-f=aC(a,k);if(f){var
-g=de(a,[5,j,[0,c(2,b),b]]);if(g){var
-h=g4(a,[5,j,[0,c(2,b),b]]);if(h)var
-p=t(a,f[1],g[1]),l=[0,C(h[1],p)];else
+f=aD(a,k);if(f){var
+g=dg(a,[5,j,[0,c(2,b),b]]);if(g){var
+h=hb(a,[5,j,[0,c(2,b),b]]);if(h)var
+p=s(a,f[1],g[1]),l=[0,B(h[1],p)];else
 var
 l=h;var
 m=l}else
@@ -4166,26 +4352,26 @@ m=g;var
 e=m}else
 var
 e=f;if(e){var
-o=e[1];return n?F(d,o[1]):F(o[2],d)}return e}function
-d5(b,a,c){var
-d=bE(b,a[1],a[2]),e=d?oI(b,0,c,a[1]):d;return e?oI(b,1,c,a[2]):e}function
-oJ(h,f,c){if(oH(c))return[0,u];var
-a=G(h,jf(f)),d=de(a,c);if(d){var
-e=g4(a,c);if(e){var
-i=e[1],j=d[1],k=b2(a,A(J(a,b),j));return x(function(b){return mZ(f,t(a,i,b))},k)}var
+o=e[1];return n?D(d,o[1]):D(o[2],d)}return e}function
+d8(b,a,c){var
+d=bH(b,a[1],a[2]),e=d?oW(b,0,c,a[1]):d;return e?oW(b,1,c,a[2]):e}function
+oX(h,f,c){if(oV(c))return[0,t];var
+a=G(h,jr(f)),d=dg(a,c);if(d){var
+e=hb(a,c);if(e){var
+i=e[1],j=d[1],k=bN(a,z(L(a,b),j));return x(function(b){return m2(f,s(a,i,b))},k)}var
 g=e}else
 var
 g=d;return g}function
-cv(a){return function(b){return oJ(a,d,b)}}function
-cw(d,a){var
-e=i(d,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]);return e?i(d,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
-dq(a){return[0,[3,[0,d,b],a],a]}function
-oK(a,c,o,n){var
-i=bE(a,[0,d,b],c),j=i?cw(a,c):i;if(j){var
-e=h(cv(a),c);if(e){var
-f=aC(a,o);if(f){var
-g=aC(a,n);if(g){var
-p=f[1],q=g[1];return F(d,C(t(a,S(a,e[1]),q),p)[1])}var
+cz(a){return function(b){return oX(a,d,b)}}function
+cA(d,a){var
+e=i(d,1,[2,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],a]);return e?i(d,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],a]):e}function
+dt(a){return[0,[3,[0,d,b],a],a]}function
+oY(a,c,o,n){var
+i=bH(a,[0,d,b],c),j=i?cA(a,c):i;if(j){var
+e=h(cz(a),c);if(e){var
+f=aD(a,o);if(f){var
+g=aD(a,n);if(g){var
+p=f[1],q=g[1];return D(d,B(s(a,P(a,e[1]),q),p)[1])}var
 k=g}else
 var
 k=f;var
@@ -4195,12 +4381,12 @@ l=e;var
 m=l}else
 var
 m=j;return m}function
-fW(d,c,a){switch(c[0]){case
-0:return a?a[2]?0:d5(d,c[1],a[1]):a;case
+f5(d,c,a){switch(c[0]){case
+0:return a?a[2]?0:d8(d,c[1],a[1]):a;case
 1:if(a){var
 e=a[2];if(e){var
 f=e[2];if(f){if(f[2])return 0;var
-l=d5(d,c[1],a[1]),m=l?d5(d,c[2],e[1]):l;if(m)return d5(d,c[3],f[1]);var
+l=d8(d,c[1],a[1]),m=l?d8(d,c[2],e[1]):l;if(m)return d8(d,c[3],f[1]);var
 n=m}else
 var
 n=f;var
@@ -4213,7 +4399,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],C=v([0,s,r,q],[0,s,r,q]);return oK(d,c[1],C,[0,b,b])}var
+q=h[1],r=g[1],s=a[1],C=v([0,s,r,q],[0,s,r,q]);return oY(d,c[1],C,[0,b,b])}var
 t=h}else
 var
 t=g;var
@@ -4222,7 +4408,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],w=i[1],x=a[1],y=oK(d,c[1],[2,[4,x,x],[4,w,w]],[2,[0,b,b],[4,k,k]]);if(y)return d5(d,dq(c[2]),k);var
+k=j[1],w=i[1],x=a[1],y=oY(d,c[1],[2,[4,x,x],[4,w,w]],[2,[0,b,b],[4,k,k]]);if(y)return d8(d,dt(c[2]),k);var
 z=y}else
 var
 z=j;var
@@ -4233,75 +4419,75 @@ B=A}else
 var
 B=a;return B}}var
 j=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
-bR(b){var
-a=aq(function(f,e){var
-a=aC(j,f);if(a)var
-b=a[1],c=bv(cG(b[1]),cG(b[2]));else
+bU(b){var
+a=am(function(f,e){var
+a=aD(j,f);if(a)var
+b=a[1],c=bw(cK(b[1]),cK(b[2]));else
 var
-c=d;return bv(c,e)},d,b);return K(d,a)?aR(mA(a),j):d}function
-eU(a){return[0,a[1],[0,a[2],0]]}function
-bj(a){var
-b=eU(a[3]),c=g(eU(a[2]),b);return g(eU(a[1]),c)}function
-hw(a){return hr(j,a,bR(bj(a)))}function
-oL(b,a){if(a){var
-g=oL([0,b],a[2]),c=a[1];if(0===c[0])var
-d=c[1],e=bO([0,[0,d,d],c[2]],b);else
+c=d;return bw(c,e)},d,b);return I(d,a)?aT(mD(a),j):d}function
+eY(a){return[0,a[1],[0,a[2],0]]}function
+bk(a){var
+b=eY(a[3]),c=g(eY(a[2]),b);return g(eY(a[1]),c)}function
+hJ(a){return hE(j,a,bU(bk(a)))}function
+oZ(b,a){if(a){var
+g=oZ([0,b],a[2]),c=a[1];if(0===c[0])var
+d=c[1],e=bR([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-oM(c,b,a){var
-d=eD(b);return[2,[2,eD(c),d],a]}function
-hx(b,a){return b?R(a):d}function
-fX(h,c,a){if(typeof
+o0(c,b,a){var
+d=eF(b);return[2,[2,eF(c),d],a]}function
+hK(b,a){return b?U(a):d}function
+f6(h,c,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 l=a[3],m=a[2];return[0,[2,m],[0,[3,m],[0,[2,l],[0,[3,l],0]]]];case
 6:return[0,[0,[5,a[3],a[2]],d],0];case
 8:var
 s=a[2],t=a[1];return e(function(a){var
-b=hx(h,c);return[0,[5,s,a],G(hx(h,c),b)]},t);case
-9:return[0,[1,[5,a[3],a[2]],R(c)],0];case
+b=hK(h,c);return[0,[5,s,a],G(hK(h,c),b)]},t);case
+9:return[0,[1,[5,a[3],a[2]],U(c)],0];case
 10:return[0,[0,a[2],d],0];case
 11:return[0,[2,a[2]],0];case
 12:return[0,[0,a[1],d],0];case
 13:var
-f=a[3],k=bR([0,f[1],[0,f[2],[0,f[3],0]]]);return[0,[2,a[4]],[0,[0,f[1],k],[0,[0,f[2],k],[0,[0,f[3],k],0]]]];case
+f=a[3],k=bU([0,f[1],[0,f[2],[0,f[3],0]]]);return[0,[2,a[4]],[0,[0,f[1],k],[0,[0,f[2],k],[0,[0,f[3],k],0]]]];case
 14:var
-n=a[2],o=a[1],u=eR(c,n),v=g(eR(c,o),u),w=e(function(a){return[0,a[1][2],a[2]]},v);return[0,[0,oM(o,n,a[3]),c],w];case
+n=a[2],o=a[1],u=eV(c,n),v=g(eV(c,o),u),w=e(function(a){return[0,a[1][2],a[2]]},v);return[0,[0,o0(o,n,a[3]),c],w];case
 15:var
 i=a[4],j=a[3],p=a[2];return h?[0,[0,[5,p,i],c],[0,[0,[5,[4,j,j],i],G(c,c)],[0,[1,[0,b,b],d],0]]]:[0,[0,[5,p,i],d],[0,[0,[5,[4,j,j],i],c],0]];case
 16:var
-q=a[2],r=bR([0,q,0]);return[0,[4,a[3],aR(r,c)],[0,[0,q,r],0]];case
+q=a[2],r=bU([0,q,0]);return[0,[4,a[3],aT(r,c)],[0,[0,q,r],0]];case
 17:var
-x=a[3],y=a[2];return e(function(a){return[0,[5,a,x],hx(h,c)]},y);case
+x=a[3],y=a[2];return e(function(a){return[0,[5,a,x],hK(h,c)]},y);case
 2:case
 3:return[0,[0,a[2],c],0]}return 0}function
-dr(h,c,b,e,a){if(a){var
-d=a[1],i=a[2],j=dr(h,c,b,N(e,f(fX(c,b,d))),i);return g(as(h,oL(e,fX(c,b,d)),d),j)}return a}function
-hy(b,a){var
-c=V(b,a);return e(function(a){var
-b=s(a[1][2],a[2]);return[0,a[1][1],b]},c)}function
-hz(b,a){switch(a[0]){case
+du(h,c,b,e,a){if(a){var
+d=a[1],i=a[2],j=du(h,c,b,O(e,f(f6(c,b,d))),i);return g(at(h,oZ(e,f6(c,b,d)),d),j)}return a}function
+hL(b,a){var
+c=N(b,a);return e(function(a){var
+b=u(a[1][2],a[2]);return[0,a[1][1],b]},c)}function
+hM(b,a){switch(a[0]){case
 0:var
-d=a[1];return ar(b,[0,[0,d,d],a[2]]);case
+d=a[1];return au(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=ar(b,[0,[0,e,e],a[2]]);return c?jg(b,c[1]):c;case
-2:return de(b,a[1]);case
-3:return g4(b,a[1]);default:var
-f=a[1],g=cw(b,f);return g?oJ(b,a[2],f):g}}function
-bH(a){return 1===a?vS:vT}function
-b9(d,c,b,a){var
-e=a[1],f=dp(d,c,a[2]),g=M(function(b,a){return[2,b,a]},b,f);return M(function(b,a){return[3,b,a]},g,e)}function
-j4(c,b,a){switch(c){case
+e=a[1],c=au(b,[0,[0,e,e],a[2]]);return c?js(b,c[1]):c;case
+2:return dg(b,a[1]);case
+3:return hb(b,a[1]);default:var
+f=a[1],g=cA(b,f);return g?oX(b,a[2],f):g}}function
+bK(a){return 1===a?v8:v9}function
+ca(d,c,b,a){var
+e=a[1],f=ds(d,c,a[2]),g=M(function(b,a){return[2,b,a]},b,f);return M(function(b,a){return[3,b,a]},g,e)}function
+j7(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-j5(h,g,d,c,f,a){var
-e=b9(d,c,f,a);return j4(h,e,P([5,[0,b,b],g],cu(dp(d,c,a[2]),e)))}function
-eV(c,d,n,m,l){var
+j8(h,g,d,c,f,a){var
+e=ca(d,c,f,a);return j7(h,e,S([5,[0,b,b],g],cy(ds(d,c,a[2]),e)))}function
+eZ(c,d,n,m,l){var
 b=d[2],a=n;for(;;){if(b){if(a){var
-f=a[1],g=b[1],h=by(c,g[1],f[1]),i=h?by(c,g[2],f[2]):h;if(i){var
+f=a[1],g=b[1],h=bC(c,g[1],f[1]),i=h?bC(c,g[2],f[2]):h;if(i){var
 b=b[2],a=a[2];continue}var
 j=i}else
 var
@@ -4309,15 +4495,15 @@ j=a;var
 e=j}else
 var
 e=a?0:1;var
-k=e?cV(c,d[4],m):e;return k?fW(c,d[5],l):k}}function
-bI(b,d){var
+k=e?cY(c,d[4],m):e;return k?f5(c,d[5],l):k}}function
+bL(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,N(b,c[1])]]:[0,b3(function(a){return bI(b,a)},a)]}return[0,b3(function(a){return bI(b,a)},a)]}function
-d6(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,O(b,c[1])]]:[0,b6(function(a){return bL(b,a)},a)]}return[0,b6(function(a){return bL(b,a)},a)]}function
+d9(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=I(n(e,b));return f?I(n(e,N(d,b))):f;case
+e=a[1],f=J(m(e,b));return f?J(m(e,O(d,b))):f;case
 10:return 0;case
 1:case
 2:return 1;case
@@ -4325,31 +4511,31 @@ e=a[1],f=I(n(e,b));return f?I(n(e,N(d,b))):f;case
 8:case
 9:var
 c=a[1];continue;default:var
-g=d6(d,b,a[1]);if(g){var
+g=d9(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-eW(c,b,m){var
+e0(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=d6(c,b,g),i=h?eW(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=d9(c,b,g),i=h?e0(c,b,f):h;if(i)var
 j=i;else{var
-k=eW(c,b,g);if(k)return d6(c,b,f);var
+k=e0(c,b,g);if(k)return d9(c,b,f);var
 j=k}return j;case
 7:var
-l=eW(c,b,a[1]);return l?d6(c,b,a[2]):l;case
+l=e0(c,b,a[1]);return l?d9(c,b,a[2]):l;case
 10:return 0;case
 3:case
 4:var
-e=eW(c,b,a[1]);if(e){var
+e=e0(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return d6(c,b,a[1]);default:return 1}}}function
-cX(c,e){var
+9:return d9(c,b,a[1]);default:return 1}}}function
+c0(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return I(n(a[1],c));case
+0:return J(m(a[1],c));case
 10:return 0;case
 1:case
 2:return 1;case
@@ -4357,29 +4543,29 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=cX(c,a[1]);if(d){var
+d=c0(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-hA(d,b,m){var
+hN(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=hA(d,b,a[1]);if(f){var
+f=hN(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=hA(d,b,a[1]);return g?cX(b,a[2]):g;case
+g=hN(d,b,a[1]);return g?c0(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=cX(b,i);if(j){var
-k=cX(b,h);if(k)var
+h=a[2],i=a[1],j=c0(b,i);if(j){var
+k=c0(b,h);if(k)var
 e=k;else{var
-l=a0(i,d);if(l){var
+l=a2(i,d);if(l){var
 c=h;continue}var
 e=l}}else
 var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return cX(b,c)}}}function
-hB(c,e){var
+2:return 1;default:return c0(b,c)}}}function
+hO(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
 0:return aF(a[1],c);case
@@ -4390,139 +4576,139 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=hB(c,a[1]);if(d){var
+d=hO(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-hC(a,h){if(a){var
-b=a[2],c=a[1],d=mM(h);if(d){var
-e=d[1],f=e[2];return e[1]?[0,c,hC(b,aq(mP,f,mO(c)))]:[0,vW,hC(b,f)]}var
-g=[0,c,hC(b,0)]}else
+hP(a,h){if(a){var
+b=a[2],c=a[1],d=mP(h);if(d){var
+e=d[1],f=e[2];return e[1]?[0,c,hP(b,am(mS,f,mR(c)))]:[0,wa,hP(b,f)]}var
+g=[0,c,hP(b,0)]}else
 var
 g=a;return g}function
-ds(b,a){return a?h(b,a[1]):a}function
-dt(c,b,a){return ds(function(b){return ds(h(c,b),a)},b)}function
-oN(b,a){switch(a[0]){case
+dv(b,a){return a?h(b,a[1]):a}function
+dw(c,b,a){return dv(function(b){return dv(h(c,b),a)},b)}function
+o1(b,a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 c=a[3],d=a[2],e=a[1];switch(b){case
 0:return e;case
 1:return d;default:return c}}}function
-oO(a){return 0===a[0]?a[1]:0}function
-oP(d,c){var
+o2(a){return 0===a[0]?a[1]:0}function
+o3(d,c){var
 b=d,a=c;for(;;){if(a){var
-e=a[2],b=oN(a[1],b),a=e;continue}return oO(b)}}function
-cx(b,a){switch(a[0]){case
+e=a[2],b=o1(a[1],b),a=e;continue}return o2(b)}}function
+cB(b,a){switch(a[0]){case
 0:return[0,h(b,a[1])];case
-1:return[1,cx(b,a[1])];default:var
-c=cx(b,a[3]),d=cx(b,a[2]);return[2,cx(b,a[1]),d,c]}}function
-bz(b,c,a){switch(c[0]){case
-0:return cx(h(b,c[1]),a);case
+1:return[1,cB(b,a[1])];default:var
+c=cB(b,a[3]),d=cB(b,a[2]);return[2,cB(b,a[1]),d,c]}}function
+bD(b,c,a){switch(c[0]){case
+0:return cB(h(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-k=a[1];return[1,cx(function(a){return as(b,a,k)},d)];case
-1:return[1,bz(b,d,a[1])];default:var
-l=bz(b,d,a[3]),m=bz(b,d,a[2]);return[2,bz(b,d,a[1]),m,l]}default:var
+k=a[1];return[1,cB(function(a){return at(b,a,k)},d)];case
+1:return[1,bD(b,d,a[1])];default:var
+l=bD(b,d,a[3]),m=bD(b,d,a[2]);return[2,bD(b,d,a[1]),m,l]}default:var
 e=c[3],f=c[2],g=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return as(b,a,n)},i=function(a){return cx(o,a)},p=i(e),q=i(f);return[2,i(g),q,p];case
+n=a[1],o=function(a){return at(b,a,n)},i=function(a){return cB(o,a)},p=i(e),q=i(f);return[2,i(g),q,p];case
 1:var
-j=a[1],r=bz(b,e,j),s=bz(b,f,j);return[2,bz(b,g,j),s,r];default:var
-t=bz(b,e,a[3]),u=bz(b,f,a[2]);return[2,bz(b,g,a[1]),u,t]}}}function
-j6(c,f,a){if(a)var
+j=a[1],r=bD(b,e,j),s=bD(b,f,j);return[2,bD(b,g,j),s,r];default:var
+t=bD(b,e,a[3]),u=bD(b,f,a[2]);return[2,bD(b,g,a[1]),u,t]}}}function
+j9(c,f,a){if(a)var
 d=a[1],b=function(i){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(i){case
 0:var
-e=[0,a,S(c,a)];break;case
+e=[0,a,P(c,a)];break;case
 1:var
-g=t(c,a,b),e=[0,au(A(a,b)),g];break;default:var
-e=[0,b,S(c,b)]}return[0,[0,h(f,e)]]},i=j6(c,f,a[2]),j=e(function(a){return[1,a]},i),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
+g=s(c,a,b),e=[0,an(z(a,b)),g];break;default:var
+e=[0,b,P(c,b)]}return[0,[0,h(f,e)]]},i=j9(c,f,a[2]),j=e(function(a){return[1,a]},i),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
 var
 g=a;return g}function
-j7(b,y,c,a){var
-d=j6(b,aJ,a),z=g(j6(b,at,a),d);return c_(vY,function(a){switch(a[0]){case
-0:return r(a[1],z,[0,[0,u]]);case
-1:return[0,[0,r(a[1],y,u)]];case
-2:return[0,[0,J(b,a[1])]];case
+j_(b,y,c,a){var
+d=j9(b,aK,a),A=g(j9(b,as,a),d);return cR(wc,function(a){switch(a[0]){case
+0:return q(a[1],A,[0,[0,t]]);case
+1:return[0,[0,q(a[1],y,t)]];case
+2:return[0,[0,L(b,a[1])]];case
 3:var
-c=a[2],d=a[1],e=function(b,a){return[0,A(b,a)]};return bz(function(a,b){return dt(e,a,b)},d,c);case
+c=a[2],d=a[1],e=function(b,a){return[0,z(b,a)]};return bD(function(a,b){return dw(e,a,b)},d,c);case
 4:var
-f=a[2],g=a[1],h=function(b,a){return[0,C(b,a)]};return bz(function(a,b){return dt(h,a,b)},g,f);case
+f=a[2],g=a[1],h=function(b,a){return[0,B(b,a)]};return bD(function(a,b){return dw(h,a,b)},g,f);case
 5:var
-i=a[1],j=function(a){return[0,$(a)]};return cx(function(a){return ds(j,a)},i);case
+i=a[1],j=function(a){return[0,Q(a)]};return cB(function(a){return dv(j,a)},i);case
 6:var
-k=a[2],l=a[1],m=function(c,a){return[0,t(b,c,a)]};return bz(function(a,b){return dt(m,a,b)},l,k);case
+k=a[2],l=a[1],m=function(c,a){return[0,s(b,c,a)]};return bD(function(a,b){return dw(m,a,b)},l,k);case
 7:var
 n=a[2],o=a[1],p=function(c,a){var
-d=b2(b,a);return x(function(a){return t(b,c,a)},d)};return bz(function(a,b){return dt(p,a,b)},o,n);case
+d=bN(b,a);return x(function(a){return s(b,c,a)},d)};return bD(function(a,b){return dw(p,a,b)},o,n);case
 8:var
-q=a[1],s=function(a){return[0,S(b,a)]};return cx(function(a){return ds(s,a)},q);case
+r=a[1],u=function(a){return[0,P(b,a)]};return cB(function(a){return dv(u,a)},r);case
 9:var
-v=a[1],w=function(a){return ck(b,a)};return cx(function(a){return ds(w,a)},v);default:return vX}},c)}function
-hD(a){if(a){var
+v=a[1],w=function(a){return cn(b,a)};return cB(function(a){return dv(w,a)},v);default:return wb}},c)}function
+hQ(a){if(a){var
 b=a[1];if(b)var
-c=hD(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=hQ(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return vZ}function
-eX(a){if(a){var
-g=a[1],b=g[2],c=hD(g[1]);if(c)if(b){var
-h=b[1],e=eX(a[2]);if(e)var
-i=K(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
+d=b;return d}return wd}function
+e1(a){if(a){var
+g=a[1],b=g[2],c=hQ(g[1]);if(c)if(b){var
+h=b[1],e=e1(a[2]);if(e)var
+i=I(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
 f=j}else
 var
 f=b;else
 var
-f=c;return f}return v0}function
-eY(b,a){var
+f=c;return f}return we}function
+e2(b,a){var
 c=a[3],d=x(function(a){var
-c=a[2],d=a[1][2];return[0,[0,h(b,a[1][1]),d],c]},c),e=h(b,a[2]),f=a[1];return[0,h(az(b),f),e,d]}function
-j8(c,g,f,b,a,e){if(b){var
+c=a[2],d=a[1][2];return[0,[0,h(b,a[1][1]),d],c]},c),e=h(b,a[2]),f=a[1];return[0,h(aB(b),f),e,d]}function
+j$(c,g,f,b,a,e){if(b){var
 h=b[1],l=b[2],d=function(b,a){var
-d=gp(c,fv,fv,function(a){return oN(b,a)},e);return j8(c,g,aT(f),l,a,d)},i=d(0,aR(a,h));if(i){var
+d=gx(c,fA,fA,function(a){return o1(b,a)},e);return j$(c,g,aU(f),l,a,d)},i=d(0,aT(a,h));if(i){var
 j=d(2,G(a,h));if(j)return f?1:d(1,a);var
 k=j}else
 var
-k=i;return k}return as(g,a,gp(c,fv,fv,oO,e))}function
-j9(e,c,b,a){var
-f=ab(d,b);function
-g(b){return a}return function(a){return j8(e,g,c,f,d,a)}}function
-du(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return x(function(a){return aS(f,e,a)},d)}return[0,u]}function
-oQ(f,e,k,j,i,a){var
-b=eX(a[1]);if(b){var
+k=i;return k}return at(g,a,gx(c,fA,fA,o2,e))}function
+ka(e,c,b,a){var
+f=$(d,b);function
+g(b){return a}return function(a){return j$(e,g,c,f,d,a)}}function
+dx(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return x(function(a){return aH(f,e,a)},d)}return[0,t]}function
+o4(f,e,k,j,i,a){var
+b=e1(a[1]);if(b){var
 c=a[2];if(c){var
-d=du(a[3]);if(d){var
-l=d[1],m=ab([0,C($(t(f,i,c[1])),l),0],e);return a1(f,e,g6(k,j,b[1],m))}var
+d=dx(a[3]);if(d){var
+l=d[1],m=$([0,B(Q(s(f,i,c[1])),l),0],e);return aX(f,e,hd(k,j,b[1],m))}var
 g=d}else
 var
 g=c;var
 h=g}else
 var
 h=b;return h}function
-oR(i,d,h,g,c){var
-a=eX(c[1]);if(a){var
-b=du(c[3]);if(b){var
-j=ab([0,C(u,b[1]),0],d),k=a[1];return a1(i,d,g6(h,g,e(function(a){return[0,a[1],u]},k),j))}var
+o5(i,d,h,g,c){var
+a=e1(c[1]);if(a){var
+b=dx(c[3]);if(b){var
+j=$([0,B(t,b[1]),0],d),k=a[1];return aX(i,d,hd(h,g,e(function(a){return[0,a[1],t]},k),j))}var
 f=b}else
 var
 f=a;return f}function
-oS(a,c,E,i){var
-j=eX(i[1]);if(j){var
+o6(a,c,D,i){var
+j=e1(i[1]);if(j){var
 k=i[2];if(k){var
-l=du(i[3]);if(l){var
-F=l[1],e=C(t(a,E,k[1]),F),b=j[1];if(b){var
-m=b[1],o=m[2];if(b[2]){var
-g=g7(a,b,ab([0,e,0],c));if(g){var
-p=g[1],q=n(f(p),c);if(q)return eJ(a,p);var
+l=dx(i[3]);if(l){var
+F=l[1],e=B(s(a,D,k[1]),F),b=j[1];if(b){var
+n=b[1],o=n[2];if(b[2]){var
+g=he(a,b,$([0,e,0],c));if(g){var
+p=g[1],q=m(f(p),c);if(q)return eK(a,p);var
 r=q}else
 var
 r=g;return r}var
-s=K(d,e[1]),u=s?K(d,o[1]):s;if(u){var
-A=D(e[1],o[1]),B=m[1];return K(aq(function(a,b){var
-c=bL(a);return G(D(bL(a),c),b)},d,B),A)}return u}var
-h=g7(a,b,ab([0,e,0],c));if(h){var
-v=h[1],w=n(f(v),c);if(w)return eJ(a,v);var
+t=I(d,e[1]),u=t?I(d,o[1]):t;if(u){var
+A=E(e[1],o[1]),C=n[1];return I(am(function(a,b){var
+c=bO(a);return G(E(bO(a),c),b)},d,C),A)}return u}var
+h=he(a,b,$([0,e,0],c));if(h){var
+v=h[1],w=m(f(v),c);if(w)return eK(a,v);var
 x=w}else
 var
 x=h;return x}var
@@ -4532,220 +4718,220 @@ y=k;var
 z=y}else
 var
 z=j;return z}function
-v1(c){var
+wf(c){var
 a=c[2];if(a){var
-b=du(c[3]);if(b)return F(d,C(a[1],b[1])[1]);var
+b=dx(c[3]);if(b)return D(d,B(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-j_(a){return y(function(a){return g(a[1],[0,a[2],0])},a)}function
-oT(a,c,b){var
-e=r(b,c,m(d)),f=aB(0,a);return l(function(b){return eW(a,b,e)},f)}function
-fY(a){var
-c=W(a);return B(m(b),c)}function
-hE(i,g){var
-h=fY(g),j=W(g),e=z(m(b),j),f=s(m(c(2,b)),g),a=m(d);return i?i[1]?[0,[0,e,bx(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bx(f),a,e]]:[0,[0,h,a,a],[0,a,e,bx(f)],[0,a,f,e]]}function
-fZ(b,a){var
-c=aa(b[3],a),d=aa(b[2],a);return[0,aa(b[1],a),d,c]}function
-oU(b,a){function
+kb(a){return y(function(a){return g(a[1],[0,a[2],0])},a)}function
+o7(a,c,b){var
+e=q(b,c,n(d)),f=aA(0,a);return l(function(b){return e0(a,b,e)},f)}function
+f7(a){var
+c=X(a);return C(n(b),c)}function
+hR(i,g){var
+h=f7(g),j=X(g),e=A(n(b),j),f=u(n(c(2,b)),g),a=n(d);return i?i[1]?[0,[0,e,bB(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bB(f),a,e]]:[0,[0,h,a,a],[0,a,e,bB(f)],[0,a,f,e]]}function
+f8(b,a){var
+c=ac(b[3],a),d=ac(b[2],a);return[0,ac(b[1],a),d,c]}function
+o8(b,a){function
 c(b){var
 c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]}function
 d(a){var
-b=aa(a,c(function(a){return a[3]})),d=aa(a,c(function(a){return a[2]}));return[0,aa(a,c(function(a){return a[1]})),d,b]}var
+b=ac(a,c(function(a){return a[3]})),d=ac(a,c(function(a){return a[2]}));return[0,ac(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-oV(v,u){function
-a(a){return[0,[0,N(u,a)]]}switch(v[0]){case
+o9(v,t){function
+a(a){return[0,[0,O(t,a)]]}switch(v[0]){case
 0:var
-w=fY(a(0));return[0,hE(v2,a(0)),w];case
+w=f7(a(0));return[0,hR(wg,a(0)),w];case
 1:var
-x=fY(a(0)),y=s(fY(a(v3)),x),A=s(fY(a(v4)),y),C=hE(0,a(0)),D=oU(hE(v6,a(v5)),C);return[0,oU(hE(v8,a(v7)),D),A];default:var
-E=a(v9),F=a(v_),g=[0,a(0),F,E],G=aa(g,g),H=B(m(b),G),j=aa(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
-d=W(a),e=s(m(c(2,b)),d);return B(z(m(b),j),e)},h=function(f,e,d,a){var
-g=as(f,s(e,d),a);return s(m(c(2,b)),g)},k=i(f),l=h(B,e,f,d),n=[0,h(z,d,f,e),l,k],o=h(z,e,f,d),p=i(e),q=[0,h(B,d,e,f),p,o],r=h(B,d,f,e),t=h(z,d,e,f);return[0,[0,[0,i(d),t,r],q,n],H]}}function
-oW(a){return 1<a[0]?[0,a[1],0]:0}function
-hF(a){switch(a[0]){case
+x=f7(a(0)),y=u(f7(a(wh)),x),z=u(f7(a(wi)),y),B=hR(0,a(0)),D=o8(hR(wk,a(wj)),B);return[0,o8(hR(wm,a(wl)),D),z];default:var
+E=a(wn),F=a(wo),g=[0,a(0),F,E],G=ac(g,g),H=C(n(b),G),j=ac(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+d=X(a),e=u(n(c(2,b)),d);return C(A(n(b),j),e)},h=function(f,e,d,a){var
+g=at(f,u(e,d),a);return u(n(c(2,b)),g)},k=i(f),l=h(C,e,f,d),m=[0,h(A,d,f,e),l,k],o=h(A,e,f,d),p=i(e),q=[0,h(C,d,e,f),p,o],r=h(C,d,f,e),s=h(A,d,e,f);return[0,[0,[0,i(d),s,r],q,m],H]}}function
+o_(a){return 1<a[0]?[0,a[1],0]:0}function
+hS(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,dq(a[1]),0];default:var
-b=[0,dq(a[2]),0];return[0,dq(a[1]),b]}}function
-eZ(a){return[0,[0,a[1]],[0,a[2]]]}function
-oX(a){switch(a[0]){case
-0:return[0,eZ(a[1]),0];case
+2:return[0,dt(a[1]),0];default:var
+b=[0,dt(a[2]),0];return[0,dt(a[1]),b]}}function
+e3(a){return[0,[0,a[1]],[0,a[2]]]}function
+o$(a){switch(a[0]){case
+0:return[0,e3(a[1]),0];case
 1:var
-f=[0,eZ(a[3]),0],g=[0,eZ(a[2]),f];return[0,eZ(a[1]),g];case
+f=[0,e3(a[3]),0],g=[0,e3(a[2]),f];return[0,e3(a[1]),g];case
 2:var
-b=eZ(dq(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
-c=a[2],d=a[1],e=[0,[1,dq(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,eZ(dq(c)),0]]]}}function
-oY(a,c){if(0===c[0]){var
-g=c[1];return h(cv(a),g)}var
-i=c[1],d=h(cv(a),i);if(d){var
-j=c[2],e=h(cv(a),j);if(e){var
-k=S(a,e[1]),l=ck(a,A(J(a,b),k)),m=d[1];return x(function(b){return t(a,m,b)},l)}var
+b=e3(dt(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
+c=a[2],d=a[1],e=[0,[1,dt(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,e3(dt(c)),0]]]}}function
+pa(a,c){if(0===c[0]){var
+g=c[1];return h(cz(a),g)}var
+i=c[1],d=h(cz(a),i);if(d){var
+j=c[2],e=h(cz(a),j);if(e){var
+k=P(a,e[1]),l=cn(a,z(L(a,b),k)),m=d[1];return x(function(b){return s(a,m,b)},l)}var
 f=e}else
 var
 f=d;return f}function
-oZ(d,c){var
-a=oY(d,c[1]);if(a)var
-b=oY(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+pb(d,c){var
+a=pa(d,c[1]);if(a)var
+b=pa(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-j$(a,e,c){var
+kc(a,e,c){var
 b=c[1];if(1===b[0]){var
 f=b[1];if(aF(f,a))return c;var
-g=m(d);return r(dJ(f,a),e,g)}return[0,b3(function(b){return j$(a,e,b)},b)]}function
-hG(g,a,n,f,c){var
-h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=hm(h,c),j=bM(f),b=e(function(b){return j$(a,j,b)},i),k=r(wd,b,m(d)),l=r(we,b,m(d));return[0,r(0,b,m(d)),l,k]}function
-bs(b,a){var
-c=s(b[2],a[1]),d=z(s(b[1],a[2]),c),e=s(b[1],a[3]),f=z(s(b[3],a[1]),e),g=s(b[3],a[2]);return[0,z(s(b[2],a[3]),g),f,d]}function
-d7(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
-ka(c){function
+g=n(d);return q(dN(f,a),e,g)}return[0,b6(function(b){return kc(a,e,b)},b)]}function
+hT(g,a,m,f,c){var
+h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=hz(h,c),j=bP(f),b=e(function(b){return kc(a,j,b)},i),k=q(wt,b,n(d)),l=q(wu,b,n(d));return[0,q(0,b,n(d)),l,k]}function
+bt(b,a){var
+c=u(b[2],a[1]),d=A(u(b[1],a[2]),c),e=u(b[1],a[3]),f=A(u(b[3],a[1]),e),g=u(b[3],a[2]);return[0,A(u(b[2],a[3]),g),f,d]}function
+d_(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
+kd(c){function
 a(a){var
-e=n(c,a)?b:d;return m(e)}var
-e=a(wf),f=a(wg);return[0,a(0),f,e]}function
-o0(e,d,c){function
-b(a){return[0,ka(a),0]}function
-a(a){return[0,bp(bs(ka(a),d),c),[0,a]]}switch(e){case
+e=m(c,a)?b:d;return n(e)}var
+e=a(wv),f=a(ww);return[0,a(0),f,e]}function
+pc(e,d,c){function
+b(a){return[0,kd(a),0]}function
+a(a){return[0,bq(bt(kd(a),d),c),[0,a]]}switch(e){case
 0:var
-f=[0,a(wh),0],g=[0,b(wi),f];return[0,b(0),g];case
+f=[0,a(wx),0],g=[0,b(wy),f];return[0,b(0),g];case
 1:var
-h=[0,a(wj),0],i=[0,a(wk),h],j=[0,a(0),i],k=[0,b(wl),j],l=[0,b(wm),k];return[0,b(0),l];default:var
-m=[0,a(wn),0],n=[0,a(wo),m];return[0,a(0),n]}}function
-o1(a,g,f,x,o,l){var
+h=[0,a(wz),0],i=[0,a(wA),h],j=[0,a(0),i],k=[0,b(wB),j],l=[0,b(wC),k];return[0,b(0),l];default:var
+m=[0,a(wD),0],n=[0,a(wE),m];return[0,a(0),n]}}function
+pd(a,g,f,x,o,l){var
 h=l[1];function
 e(c,b){var
-e=h[3],f=d7(b,a[3]),g=s(B(c[3],f),e),i=h[2],j=d7(b,a[2]),k=s(B(c[2],j),i),l=h[1],n=d7(b,a[1]),o=s(B(c[1],n),l);return B(B(B(m(d),o),k),g)}var
-u=e(a[3],wp),v=e(a[2],wq),w=[0,e(a[1],0),v,u],i=aa(o[1],w),p=o[2];if(p){var
+e=h[3],f=d_(b,a[3]),g=u(C(c[3],f),e),i=h[2],j=d_(b,a[2]),k=u(C(c[2],j),i),l=h[1],m=d_(b,a[1]),o=u(C(c[1],m),l);return C(C(C(n(d),o),k),g)}var
+t=e(a[3],wF),v=e(a[2],wG),w=[0,e(a[1],0),v,t],i=ac(o[1],w),p=o[2];if(p){var
 j=p[1],q=l[2];if(q){var
-k=q[1],y=d7(j,f),A=s(d7(k,g),y),C=d7(k,f),r=B(s(d7(j,g),C),A),D=W(x);if(n(j,k))var
-E=aa(g,f),t=z(r,s(m(c(2,b)),E));else
+k=q[1],y=d_(j,f),z=u(d_(k,g),y),B=d_(k,f),r=C(u(d_(j,g),B),z),D=X(x);if(m(j,k))var
+E=ac(g,f),s=A(r,u(n(c(2,b)),E));else
 var
-t=r;return B(i,ai(t,D))}return i}return i}function
-kb(b,a){if(a)var
-d=kb(b,a[2]),c=[0,e(h(b,a[1]),a),d];else
+s=r;return C(i,aj(s,D))}return i}return i}function
+ke(b,a){if(a)var
+d=ke(b,a[2]),c=[0,e(h(b,a[1]),a),d];else
 var
 c=a;return c}function
-f0(c,b,a){switch(c){case
+f9(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-o2(a){if(a){var
-f=a[1],b=f[2],c=hD(f[1]);if(c)if(b)var
-d=o2(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
+pe(a){if(a){var
+f=a[1],b=f[2],c=hQ(f[1]);if(c)if(b)var
+d=pe(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
 var
 e=b;else
 var
-e=c;return e}return wr}function
-o3(c,b,a){var
-d=V(b,a);return aq(function(a,d){var
-b=bL(a[2]);return A(t(c,a[1],[0,b,b]),d)},u,d)}function
-o4(a,h,e,f,d){if(e)if(d)var
-i=d[1],o=o4(a,h,e[2],f,d[2]),p=i[2],q=ay(h,i[1]),c=e[1],j=au(t(a,c[3],f)),k=c[3],l=A(au(eE(p,J(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cN(A(A(au(o3(a,c[4],q)),n),m)),o];else
+e=c;return e}return wH}function
+pf(c,b,a){var
+d=N(b,a);return am(function(a,d){var
+b=bO(a[2]);return z(s(c,a[1],[0,b,b]),d)},t,d)}function
+pg(a,h,e,f,d){if(e)if(d)var
+i=d[1],o=pg(a,h,e[2],f,d[2]),p=i[2],q=az(h,i[1]),c=e[1],j=an(s(a,c[3],f)),k=c[3],l=z(an(co(p,L(a,b),k)),j),m=s(a,c[2],l),n=s(a,c[1],f),g=[0,b5(z(z(an(pf(a,c[4],q)),n),m)),o];else
 var
 g=d;else
 var
 g=e;return g}function
-wt(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
-o5(b,a){return ac(e(function(a){return r(a,b,0)},a))}function
-bS(a){switch(a){case
-0:return wx;case
-1:return wy;default:return 0}}function
-d8(a){switch(a){case
-0:return[0,wA,wz,m(d)];case
-1:return dT;default:var
-b=m(d),c=m(d);return[0,m(d),c,b]}}function
-hH(c,b,a){return bp(fZ(c,a),b)}function
-o6(b,a){if(b)return[0,[0,[0,a]],[0,[0,[0,a]]],[0,[0,[0,[0,a]]]]];var
-c=m(d);return[0,m(d),c,[0,[0,a]]]}function
-kc(a){var
-d=aa(a,a),e=B(m(b),d);return ai(m(c(2,b)),e)}function
-o7(a,b){var
-c=bs(a,b),d=af(B,c,bs(a,c));return af(B,b,a8(kc(a),d))}function
-o8(h,g,f,e,d,c){var
-b=o7(c,hH(g,f,d)),a=af(z,af(B,d8(h),b),e);return[0,[0,b,a],aM(aa(a,a))]}function
-an(a){return typeof
-a==="number"?a?wB:wC:bH(a[1])}function
-kd(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:j4(b[1],a,c)}function
-d9(a){if(0===a[0]){var
+wJ(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
+ph(b,a){return ad(e(function(a){return q(a,b,0)},a))}function
+bV(a){switch(a){case
+0:return wN;case
+1:return wO;default:return 0}}function
+d$(a){switch(a){case
+0:return[0,wQ,wP,n(d)];case
+1:return dX;default:var
+b=n(d),c=n(d);return[0,n(d),c,b]}}function
+hU(c,b,a){return bq(f8(c,a),b)}function
+pi(b,a){if(b)return[0,[0,[0,a]],[0,[0,[0,a]]],[0,[0,[0,[0,a]]]]];var
+c=n(d);return[0,n(d),c,[0,[0,a]]]}function
+kf(a){var
+d=ac(a,a),e=C(n(b),d);return aj(n(c(2,b)),e)}function
+pj(a,b){var
+c=bt(a,b),d=ah(C,c,bt(a,c));return ah(C,b,a_(kf(a),d))}function
+pk(h,g,f,e,d,c){var
+b=pj(c,hU(g,f,d)),a=ah(A,ah(C,d$(h),b),e);return[0,[0,b,a],aO(ac(a,a))]}function
+ap(a){return typeof
+a==="number"?a?wR:wS:bK(a[1])}function
+kg(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:j7(b[1],a,c)}function
+ea(a){if(0===a[0]){var
 c=a[1];switch(c[0]){case
 0:return c[3];case
 1:return c[2];default:return[0,[0,d,b],[0,d,b],[0,d,b]]}}return a[1][4]}function
-d_(b,c,a){return b?dp(b[1],c,a):a}function
-bk(d,c,b,a){var
-e=d9(a),f=d_(d,c,d9(a)),g=M(function(b,a){return[2,b,a]},b,f);return M(function(b,a){return[3,b,a]},g,e)}function
-o9(h,g,d,c,f,a){if(0===a[0])var
-i=bk(d,c,f,a),e=b8(a[1],i);else
+eb(b,c,a){return b?ds(b[1],c,a):a}function
+bl(d,c,b,a){var
+e=ea(a),f=eb(d,c,ea(a)),g=M(function(b,a){return[2,b,a]},b,f);return M(function(b,a){return[3,b,a]},g,e)}function
+pl(h,g,d,c,f,a){if(0===a[0])var
+i=bl(d,c,f,a),e=b$(a[1],i);else
 var
-j=bk(d,c,f,a),e=j2(a[1],j);return kd(h,e,P([5,[0,b,b],g],cu(d_(d,c,d9(a)),e)))}function
-e0(d,c,b,a){if(0===a[0]){var
-f=bk(d,c,b,a);return[0,cW(a[1],f)]}var
-e=a[1],g=j0(e,bk(d,c,b,a));return[1,jZ(e,bk(d,c,b,a)),g]}function
-ke(b,a){var
+j=bl(d,c,f,a),e=j5(a[1],j);return kg(h,e,S([5,[0,b,b],g],cy(eb(d,c,ea(a)),e)))}function
+e4(d,c,b,a){if(0===a[0]){var
+f=bl(d,c,b,a);return[0,cZ(a[1],f)]}var
+e=a[1],g=j3(e,bl(d,c,b,a));return[1,j2(e,bl(d,c,b,a)),g]}function
+kh(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-kf(e,d,c,a){if(0===a[0]){var
-f=bk(e,d,c,a),b=jS(a[1],f),g=b?[0,b[1],0]:b;return g}var
-h=bk(e,d,c,a);return[0,jY(a[1],h),0]}function
-o_(b,f,d){if(0===f[0])return 0===d[0]?og(b,f[1],d[1]):0;if(0===d[0])return 0;var
-a=d[1],c=f[1],g=by(b,c[1],a[1]),h=g?by(b,c[2],a[2]):g,j=h?by(b,c[3],a[3]):h,k=j?by(b,c[4],a[4]):j,l=k?dm(b,c[5],a[5]):k,m=l?dm(b,c[6],a[6]):l,n=m?i(b,1,a[5]):m,o=n?i(b,1,a[6]):n,p=o?i(b,1,v(a[1],a[1])):o;if(p)var
-q=jX(a),e=i(b,1,v(jX(a),q));else
+ki(e,d,c,a){if(0===a[0]){var
+f=bl(e,d,c,a),b=jV(a[1],f),g=b?[0,b[1],0]:b;return g}var
+h=bl(e,d,c,a);return[0,j1(a[1],h),0]}function
+pm(b,f,d){if(0===f[0])return 0===d[0]?ou(b,f[1],d[1]):0;if(0===d[0])return 0;var
+a=d[1],c=f[1],g=bC(b,c[1],a[1]),h=g?bC(b,c[2],a[2]):g,j=h?bC(b,c[3],a[3]):h,k=j?bC(b,c[4],a[4]):j,l=k?dq(b,c[5],a[5]):k,m=l?dq(b,c[6],a[6]):l,n=m?i(b,1,a[5]):m,o=n?i(b,1,a[6]):n,p=o?i(b,1,v(a[1],a[1])):o;if(p)var
+q=j0(a),e=i(b,1,v(j0(a),q));else
 var
-e=p;return e?cI(c[7],a[7]):e}function
-e1(g,f,e){var
+e=p;return e?cM(c[7],a[7]):e}function
+e5(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=o_(g,b[1],a[1]);if(c){var
+c=pm(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-hI(c,b,g,a){var
-d=cV(c,b[4],g);if(d){var
-e=b[5];if(e)return fW(c,e[1],a);if(a)return 0;var
+hV(c,b,g,a){var
+d=cY(c,b[4],g);if(d){var
+e=b[5];if(e)return f5(c,e[1],a);if(a)return 0;var
 f=1}else
 var
 f=d;return f}function
-f1(a){return typeof
-a==="number"?wD:2<=a[1]?wE:wF}function
-o$(v,m,l){if(l){var
+f_(a){return typeof
+a==="number"?wT:2<=a[1]?wU:wV}function
+pn(v,m,l){if(l){var
 a=l[1],e=function(c,a){return i(v,1,[3,[0,a,b],c])},g=function(a){return[3,a[2],a[1]]};switch(a[0]){case
 0:var
-n=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),f=e(g(a[1]),n);break;case
+n=c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),f=e(g(a[1]),n);break;case
 1:var
-j=a[2],o=c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),k=e([3,[0,d,b],j[1]],o);if(k)var
-p=c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),h=e(j[2],p);else
+j=a[2],o=c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),k=e([3,[0,d,b],j[1]],o);if(k)var
+p=c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),h=e(j[2],p);else
 var
 h=k;if(h)var
-r=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),s=g(a[3]),f=e([2,g(a[1]),s],r);else
+q=c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),s=g(a[3]),f=e([2,g(a[1]),s],q);else
 var
 f=h;break;case
 2:var
-t=c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),f=e(a[1],t);break;default:var
-u=c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),f=e([2,a[1],a[2]],u)}return f?typeof
+t=c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),f=e(a[1],t);break;default:var
+u=c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),f=e([2,a[1],a[2]],u)}return f?typeof
 m==="number"?0:m[1]?1:0===a[0]?1:0:f}return 1}function
-b_(e,j){var
+cb(e,j){var
 a=j[1];switch(a[0]){case
 1:var
-k=n(a[1],e)?b:d;return m(k);case
+k=m(a[1],e)?b:d;return n(k);case
 3:var
-l=b_(e,a[2]);return B(b_(e,a[1]),l);case
+l=cb(e,a[2]);return C(cb(e,a[1]),l);case
 4:var
-o=b_(e,a[2]);return z(b_(e,a[1]),o);case
-5:return bx(b_(e,a[1]));case
+o=cb(e,a[2]);return A(cb(e,a[1]),o);case
+5:return bB(cb(e,a[1]));case
 6:var
-g=a[2],h=a[1],p=s(h,b_(e,g));return B(s(g,b_(e,h)),p);case
+g=a[2],h=a[1],p=u(h,cb(e,g));return C(u(g,cb(e,h)),p);case
 7:var
-f=b_(e,a[1]);return be(d,f)?f:ai(f,a[2]);case
+f=cb(e,a[1]);return bf(d,f)?f:aj(f,a[2]);case
 8:var
-i=a[1],q=b_(e,i);return s(s(m(c(2,b)),i),q);default:return m(d)}}function
-hJ(c,b,k){var
+i=a[1],q=cb(e,i);return u(u(n(c(2,b)),i),q);default:return n(d)}}function
+hW(c,b,k){var
 e=k;for(;;){var
 a=e[1];switch(a[0]){case
 7:var
-g=hJ(c,b,a[1]);if(g){var
+g=hW(c,b,a[1]);if(g){var
 h=a[2][1];if(1===h[0]){var
-i=h[1],j=K(d,r(i,c,u)[1]);return j?I(aj(function(a){return n(i,a)},b)):j}return 0}return g;case
+i=h[1],j=I(d,q(i,c,t)[1]);return j?J(ag(function(a){return m(i,a)},b)):j}return 0}return g;case
 5:case
 8:var
 e=a[1];continue;case
@@ -4754,9 +4940,9 @@ e=a[1];continue;case
 0:case
 1:case
 2:return 1;default:var
-f=hJ(c,b,a[1]);if(f){var
+f=hW(c,b,a[1]);if(f){var
 e=a[2];continue}return f}}}function
-pa(d){var
+po(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 0:case
@@ -4767,72 +4953,72 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-c=pa(a[1]);if(c){var
+c=po(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-pb(c,b,a){var
+pp(c,b,a){var
 d=e(b,a[2]);return[0,h(c,a[1]),d]}function
-kg(b,a,c){return e(function(c){var
-d=pb(b,a,c[2]),f=c[1];return[0,e(function(c){return pb(b,a,c)},f),d]},c)}function
-pc(b,a){return x(function(a){var
+kj(b,a,c){return e(function(c){var
+d=pp(b,a,c[2]),f=c[1];return[0,e(function(c){return pp(b,a,c)},f),d]},c)}function
+pq(b,a){return x(function(a){var
 c=a[2],d=a[1][2];return[0,[0,h(b,a[1][1]),d],c]},a)}function
-wG(a,b){var
-c=pc(a,b[3]),d=h(a,b[2]);return[0,kg(a,a,b[1]),d,c]}function
-pd(c){var
+wW(a,b){var
+c=pq(a,b[3]),d=h(a,b[2]);return[0,kj(a,a,b[1]),d,c]}function
+pr(c){var
 a=c[1];if(a){var
-b=hD(c[2]);if(b)var
-g=e(ad,b[1]),d=[0,[0,ad(a[1]),g]];else
+b=hQ(c[2]);if(b)var
+g=e(_,b[1]),d=[0,[0,_(a[1]),g]];else
 var
 d=b;var
 f=d}else
 var
 f=a;return f}function
-wH(c){var
-a=ac(e(pd,c[1]));if(a)var
-b=pd(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
+wX(c){var
+a=ad(e(pr,c[1]));if(a)var
+b=pr(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
 var
 d=a;return d}function
-wI(a){return I(jp([0,a[2],a[1]]))}function
-kh(a){return[0,a[1],a[2]]}function
-pe(b,c,a){var
-d=e(function(c){return bI(b,b_(c,a))},c);return[0,bI(b,a),d]}function
-ki(b,e,a,d){var
+wY(a){return J(fL([0,a[2],a[1]]))}function
+kk(a){return[0,a[1],a[2]]}function
+ps(b,c,a){var
+d=e(function(c){return bL(b,cb(c,a))},c);return[0,bL(b,a),d]}function
+kl(b,e,a,d){var
 c=y(function(a){var
-b=kh(a[2]);return g(y(kh,a[1]),b)},d),f=a?[0,bI(b,a[1]),0]:a,h=g(f,c);return[0,bI(b,e),h]}function
-pf(c,f,b,a){var
-d=hJ(f,b,a),e=d?hB(c,a):d;return e?l(function(b){return hB(c,b_(b,a))},b):e}function
-pg(a){switch(a[0]){case
+b=kk(a[2]);return g(y(kk,a[1]),b)},d),f=a?[0,bL(b,a[1]),0]:a,h=g(f,c);return[0,bL(b,e),h]}function
+pt(c,f,b,a){var
+d=hW(f,b,a),e=d?hO(c,a):d;return e?l(function(b){return hO(c,cb(b,a))},b):e}function
+pu(a){switch(a[0]){case
 3:var
-d=j_(a[2]);return[0,a[3],d];case
+d=kb(a[2]);return[0,a[3],d];case
 4:return[0,a[1],0];case
 8:var
-b=a[1],e=j_(b[1]);return[0,b[2],e];case
+b=a[1],e=kb(b[1]);return[0,b[2],e];case
 9:return 0;default:var
-c=j_(a[1]);return[0,a[2],c]}}function
-ph(a,as,bc,k,o,ar,aq,w,N,j,i){switch(j[0]){case
+c=kb(a[1]);return[0,a[2],c]}}function
+pv(a,au,bc,k,o,at,ar,w,O,j,i){switch(j[0]){case
 0:var
-av=j[4],O=j[3],aw=j[2],ax=j[1],R=0;if(typeof
-i==="number")R=1;else
+av=j[4],R=j[3],aw=j[2],ax=j[1],U=0;if(typeof
+i==="number")U=1;else
 switch(i[0]){case
 0:var
-bd=i[2],be=i[1],u=aw,s=ax,q=function(b){return oQ(a,o,be,bd,O,b)},p=av;break;case
+bd=i[2],be=i[1],u=aw,t=ax,r=function(b){return o4(a,o,be,bd,R,b)},p=av;break;case
 2:var
-ay=L(O[1],d),az=ay?L(O[2],d):ay;if(!az)return az;var
-bh=i[2],bi=i[1],u=aw,s=ax,q=function(b){return oR(a,o,bi,bh,b)},p=av;break;default:R=1}if(R)return 0;break;case
+ay=H(R[1],d),az=ay?H(R[2],d):ay;if(!az)return az;var
+bh=i[2],bi=i[1],u=aw,t=ax,r=function(b){return o5(a,o,bi,bh,b)},p=av;break;default:U=1}if(U)return 0;break;case
 1:var
-aJ=0;if(typeof
+aK=0;if(typeof
 i==="number"&&!i)var
-bj=j[2],bk=j[1],bl=j[3],u=bj,s=bk,bm=0,q=function(b){return oS(a,o,bl,b)},p=bm;else
-aJ=1;if(aJ)return 0;break;case
+bj=j[2],bk=j[1],bl=j[3],u=bj,t=bk,bm=0,r=function(b){return o6(a,o,bl,b)},p=bm;else
+aK=1;if(aK)return 0;break;case
 2:if(typeof
 i!=="number"&&3===i[0]){var
 y=i[3];if(y){var
-aA=y[2],aB=n(f(aA),k);if(aB){var
-bn=[0,j[1],j[2],N],bo=eY(function(a){return r(a,w,wL)},bn),aC=i[1],bp=0,bq=y[1],br=i[2],bs=j[3],bt=function(w,i){var
-c=eX(i[1]);if(c){var
+aA=y[2],aB=m(f(aA),k);if(aB){var
+bn=[0,j[1],j[2],O],bo=e2(function(a){return q(a,w,w1)},bn),aC=i[1],bp=0,bq=y[1],br=i[2],bs=j[3],bt=function(w,i){var
+c=e1(i[1]);if(c){var
 j=c[1],e=i[2];if(e){var
-f=du(i[3]);if(f){var
-k=f[1],l=function(c){return aS(c,aC,J(a,b))},u=l(w),v=e[1],g=A(t(a,l(bq),v),u),m=K(d,g[1]),n=m?a1(a,o,g6(aC,br,j,ab([0,C($(g),k),0],o))):m;if(n){var
-h=g7(a,j,ab([0,C(t(a,bs,g),k),0],o));if(h)return a1(a,o,h[1]);var
+f=dx(i[3]);if(f){var
+k=f[1],l=function(c){return aH(c,aC,L(a,b))},u=l(w),v=e[1],g=z(s(a,l(bq),v),u),m=I(d,g[1]),n=m?aX(a,o,hd(aC,br,j,$([0,B(Q(g),k),0],o))):m;if(n){var
+h=he(a,j,$([0,B(s(a,bs,g),k),0],o));if(h)return aX(a,o,h[1]);var
 p=h}else
 var
 p=n;var
@@ -4842,22 +5028,22 @@ q=f;var
 r=q}else
 var
 r=e;var
-s=r}else
+t=r}else
 var
-s=c;return s};return j8(function(b,a){return eY},bt,bp,aA,d,bo)}var
+t=c;return t};return j$(function(b,a){return e2},bt,bp,aA,d,bo)}var
 aD=aB}else
 var
 aD=y;return aD}return 0;case
 3:var
-aK=0;if(typeof
-i==="number"||!(0===i[0]))aK=1;else
+aL=0;if(typeof
+i==="number"||!(0===i[0]))aL=1;else
 var
 aE=i[2],aG=i[1],bu=j[3],bv=j[2],bw=j[4],bx=j[1],by=function(g){var
-b=eX(g[1]);if(b){var
+b=e1(g[1]);if(b){var
 c=b[1],d=g[2];if(d){var
-e=du(g[3]);if(e){var
-h=n(f(c),o),i=h?n(f(aE),o):h;if(i){var
-m=dV(aG,dW(aG,aE,d[1],c));return a1(a,o,a$(g$(a,bx,bw,e[1],c),m))}var
+e=dx(g[3]);if(e){var
+h=m(f(c),o),i=h?m(f(aE),o):h;if(i){var
+n=dY(aG,dZ(aG,aE,d[1],c));return aX(a,o,aV(hi(a,bx,bw,e[1],c),n))}var
 j=i}else
 var
 j=e;var
@@ -4866,79 +5052,79 @@ var
 k=d;var
 l=k}else
 var
-l=b;return l},u=bu,s=bv,q=by,p=j[5];if(aK)return 0;break;case
+l=b;return l},u=bu,t=bv,r=by,p=j[5];if(aL)return 0;break;case
 4:var
-aL=0;if(typeof
-i==="number"&&!i)var
-u=j[1],s=0,q=v1,p=0;else
-aL=1;if(aL)return 0;break;case
-5:var
 aM=0;if(typeof
-i==="number"||!(0===i[0]))aM=1;else{var
-z=i[2],aN=0;if(z){var
-B=z[1];if(B){if(B[2])return 0;if(z[2])return 0;var
-bz=j[2],bA=j[1],bB=J(a,b),bC=[0,[0,B[1],0],0],bD=i[1],u=bz,s=bA,bE=0,q=function(b){return oQ(a,wM,bD,bC,bB,b)},p=bE;aN=1}else
-var
-aH=B}else
-var
-aH=z;if(!aN)return aH}if(aM)return 0;break;case
-6:var
-aO=0;if(typeof
 i==="number"&&!i)var
-bF=j[2],bG=j[1],bH=J(a,b),u=bF,s=bG,bI=0,q=function(b){return oS(a,wN,bH,b)},p=bI;else
-aO=1;if(aO)return 0;break;case
-7:var
+u=j[1],t=0,r=wf,p=0;else
+aM=1;if(aM)return 0;break;case
+5:var
+aN=0;if(typeof
+i==="number"||!(0===i[0]))aN=1;else{var
+A=i[2],aO=0;if(A){var
+C=A[1];if(C){if(C[2])return 0;if(A[2])return 0;var
+bz=j[2],bB=j[1],bC=L(a,b),bD=[0,[0,C[1],0],0],bE=i[1],u=bz,t=bB,bF=0,r=function(b){return o4(a,w2,bE,bD,bC,b)},p=bF;aO=1}else
+var
+aI=C}else
+var
+aI=A;if(!aO)return aI}if(aN)return 0;break;case
+6:var
 aP=0;if(typeof
-i==="number"&&5<=i)var
-bJ=j[2],bK=j[1],bL=j[4],bM=j[3],u=bJ,s=bK,bN=0,q=function(b){return oR(a,o,bM,bL,b)},p=bN;else
+i==="number"&&!i)var
+bG=j[2],bH=j[1],bI=L(a,b),u=bG,t=bH,bJ=0,r=function(b){return o6(a,w3,bI,b)},p=bJ;else
 aP=1;if(aP)return 0;break;case
+7:var
+aQ=0;if(typeof
+i==="number"&&5<=i)var
+bK=j[2],bL=j[1],bM=j[4],bO=j[3],u=bK,t=bL,bP=0,r=function(b){return o5(a,o,bO,bM,b)},p=bP;else
+aQ=1;if(aQ)return 0;break;case
 8:if(typeof
 i!=="number"&&9===i[0]){var
-P=i[4],aI=i[2],Q=i[1],m=j[1],v=m[9],bO=i[3],aQ=m[5],aR=cO(g(cL(m[4]),aQ),as),aU=e(ad,bc),T=c$(0,b4(a,ny(m[9],k,ar,m[7],m[8]),aU),aR,as),U=mw(P,d);if(U)var
-D=U;else
+S=i[4],aJ=i[2],T=i[1],n=j[1],v=n[9],bQ=i[3],aR=n[5],aS=cp(g(cP(n[4]),aR),au),aT=e(_,bc),V=db(0,b7(a,nB(n[9],k,at,n[7],n[8]),aT),aS,au),W=mz(S,d);if(W)var
+D=W;else
 var
-ao=mx(P,c(2,c(2,c(2,c(2,b))))),ap=ao?aF(0,v):ao,D=ap?aF(v,k):ap;var
-W=D?ae(v,k):D,X=W?n(f(ar),k):W,Y=X?n(f(aI),k):X,Z=Y?n(f(m[1]),k):Y,_=Z?n(f(m[6]),k):Z,aa=_?n(f(m[4]),k):_;if(aa)var
-aV=m[4],E=l(function(a){return n(f(a),k)},aV);else
+ap=mA(S,c(2,c(2,c(2,c(2,b))))),aq=ap?aF(0,v):ap,D=aq?aF(v,k):aq;var
+X=D?ae(v,k):D,Y=X?m(f(at),k):X,Z=Y?m(f(aJ),k):Y,aa=Z?m(f(n[1]),k):Z,ab=aa?m(f(n[6]),k):aa,ac=ab?m(f(n[4]),k):ab;if(ac)var
+aW=n[4],E=l(function(a){return m(f(a),k)},aW);else
 var
-E=aa;if(E){var
-aW=m[4],F=ac(e(function(a){return o5(T,a)},aW));if(F){var
-af=o5(T,m[5]);if(af){var
-aX=m[6],G=ac(e(function(j){var
-c=j[1],k=m[7],d=r(c[1],aq,0);if(d){var
-h=c[2][2],b=ac(e(function(a){var
-b=r(a[2],aq,0);return x(function(a){return a[2]},b)},h));if(b)var
-i=b[1],f=[0,cN(au(t(a,k,S(a,o3(a,e(at,c[2][2]),i)))))];else
+E=ac;if(E){var
+aY=n[4],F=ad(e(function(a){return ph(V,a)},aY));if(F){var
+af=ph(V,n[5]);if(af){var
+aZ=n[6],G=ad(e(function(j){var
+c=j[1],k=n[7],d=q(c[1],ar,0);if(d){var
+h=c[2][2],b=ad(e(function(a){var
+b=q(a[2],ar,0);return x(function(a){return a[2]},b)},h));if(b)var
+i=b[1],f=[0,b5(an(s(a,k,P(a,pf(a,e(as,c[2][2]),i)))))];else
 var
 f=b;var
 g=f}else
 var
-g=d;return g},aX));if(G){var
-aY=m[1],aZ=m[2],H=ac(e(function(m){function
+g=d;return g},aZ));if(G){var
+a0=n[1],a1=n[2],J=ad(e(function(m){function
 f(e){var
-g=ab(e,k),c=oP(r(m[2],w,wu),g);if(c){var
-h=ab(e,k),d=oP(r(aZ,w,wv),h);if(d){var
-i=d[1],j=J(a,b);return ck(a,cl(eE(c[1],j,i)))}var
+g=$(e,k),c=o3(q(m[2],w,wK),g);if(c){var
+h=$(e,k),d=o3(q(a1,w,wL),h);if(d){var
+i=d[1],j=L(a,b);return cn(a,bA(co(c[1],j,i)))}var
 f=d}else
 var
 f=c;return f}var
 c=f(0);if(c){var
 e=f(2);if(e)var
-g=cl(au(A(c[1],e[1]))),h=K(d,g[1]),l=h?[0,g]:h,i=l;else
+g=bA(an(z(c[1],e[1]))),h=I(d,g[1]),l=h?[0,g]:h,i=l;else
 var
 i=e;var
 j=i}else
 var
-j=c;return j},aY));if(H){var
-ag=ns(a,k,v,F[1]),I=aS(bO,Q,J(a,b)),ah=K(d,C(I,ag)[1]);if(ah){var
-M=b2(a,I);if(M){var
-a0=au(t(a,ag,M[1])),a2=C(J(a,b),a0),a3=[0,m[1],m[2],N],a4=eY(function(a){return r(a,w,ww)},a3),a5=m[6],a6=e(wt,V(V(G[1],H[1]),a5)),a7=S(a,a2),a8=S(a,I),a9=nt(k,v,m[10],P),a_=function(m){var
-b=o2(m[1]);if(b){var
-o=b[1],c=m[2];if(c){var
-d=c[1],h=du(m[3]);if(h){var
-p=h[1],q=o4(a,k,a6,d,o),i=e(function(a){var
-b=a[2];return[0,nu(a9,a[1]),b]},o),z=dV(Q,dW(Q,aI,d,i)),j=a$(ab([0,$(p),0],k),z),A=C(t(a,d,a7),p),r=n(f(i),k),s=r?n(f(q),k):r,u=s?nw(k,j):s,v=u?a1(a,k,a$(e(function(b){return[0,$(t(a,a8,b[2])),0]},i),j)):u;if(v){var
-B=ba(aT(k));return l(function(b){return a1(a,[0,k],nv(j,nx(g(b,ws),q),A))},B)}var
+j=c;return j},a0));if(J){var
+ag=nv(a,k,v,F[1]),K=aH(bQ,T,L(a,b)),ah=I(d,B(K,ag)[1]);if(ah){var
+M=bN(a,K);if(M){var
+a2=an(s(a,ag,M[1])),a3=B(L(a,b),a2),a4=[0,n[1],n[2],O],a5=e2(function(a){return q(a,w,wM)},a4),a6=n[6],a7=e(wJ,N(N(G[1],J[1]),a6)),a8=P(a,a3),a_=P(a,K),a$=nw(k,v,n[10],S),ba=function(n){var
+b=pe(n[1]);if(b){var
+o=b[1],c=n[2];if(c){var
+d=c[1],h=dx(n[3]);if(h){var
+p=h[1],q=pg(a,k,a7,d,o),i=e(function(a){var
+b=a[2];return[0,nx(a$,a[1]),b]},o),z=dY(T,dZ(T,aJ,d,i)),j=aV($([0,Q(p),0],k),z),A=B(s(a,d,a8),p),r=m(f(i),k),t=r?m(f(q),k):r,u=t?nz(k,j):t,v=u?aX(a,k,aV(e(function(b){return[0,Q(s(a,a_,b[2])),0]},i),j)):u;if(v){var
+C=a9(aU(k));return l(function(b){return aX(a,[0,k],ny(j,nA(g(b,wI),q),A))},C)}var
 w=v}else
 var
 w=h;var
@@ -4947,13 +5133,13 @@ var
 x=c;var
 y=x}else
 var
-y=b;return y},bb=m[3];return h(j9(function(b,a){return eY},bb,k,a_),a4)}var
+y=b;return y},bb=n[3];return h(ka(function(b,a){return e2},bb,k,ba),a5)}var
 ai=M}else
 var
 ai=ah;var
 aj=ai}else
 var
-aj=H;var
+aj=J;var
 ak=aj}else
 var
 ak=G;var
@@ -4963,323 +5149,323 @@ al=af;var
 am=al}else
 var
 am=F;var
-an=am}else
+ao=am}else
 var
-an=E;return an}return 0;default:return 0}var
-bf=[0,s,u,N],bg=eY(function(a){return r(a,w,wK)},bf);return h(j9(function(b,a){return eY},p,k,q),bg)}function
-wO(b,a){var
-c=i6(i1,b[1],a[1]);return c?i1(b[2],a[2]):c}function
-pi(c,b){var
-a=i6(wO,c,b),d=a?1:a;return d}function
-pj(j,s,r,i,q,k,p,o,m,h,l,g,a,e){if(typeof
-e==="number"){if(0===e)return 9===a[0]?eP(j,0,0,0,g,i,0,a[1],e):0}else
+ao=E;return ao}return 0;default:return 0}var
+bf=[0,t,u,O],bg=e2(function(a){return q(a,w,w0)},bf);return h(ka(function(b,a){return e2},p,k,r),bg)}function
+w4(b,a){var
+c=jh(jc,b[1],a[1]);return c?jc(b[2],a[2]):c}function
+pw(c,b){var
+a=jh(w4,c,b),d=a?1:a;return d}function
+px(j,s,r,i,q,k,p,o,n,h,l,g,a,e){if(typeof
+e==="number"){if(0===e)return 9===a[0]?eS(j,0,0,0,g,i,0,a[1],e):0}else
 switch(e[0]){case
 6:var
 f=e[1];if(typeof
 f!=="number"&&7===f[0]){if(k){var
-t=f[3],u=f[2],v=F(d,u),w=v?gU(t,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):v;if(w)return ph(j,s,r,i,q,h,g,l,[0,[0,[0,k[1],u],t]],a,f[1]);var
+t=f[3],u=f[2],v=D(d,u),w=v?g2(t,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):v;if(w)return pv(j,s,r,i,q,h,g,l,[0,[0,[0,k[1],u],t]],a,f[1]);var
 x=w}else
 var
-x=k;return x}return ph(j,s,r,i,q,h,g,l,0,a,f);case
-8:return 9===a[0]?eP(j,0,0,0,g,i,0,a[1],e):0;case
+x=k;return x}return pv(j,s,r,i,q,h,g,l,0,a,f);case
+8:return 9===a[0]?eS(j,0,0,0,g,i,0,a[1],e):0;case
 10:if(0===a[0]){var
-y=pi(a[1],p),z=y?n(a[2],o):y;return z?gp(m,h,a[3],a[4],e):z}return 0;case
+y=pw(a[1],p),z=y?m(a[2],o):y;return z?gx(n,h,a[3],a[4],e):z}return 0;case
 12:if(0===a[0]){var
-A=pi(a[1],p),B=A?n(a[2],o):A;return B?gp(m,h,a[3],a[4],e):B}return 0}return 0}function
-pk(b){var
+A=pw(a[1],p),B=A?m(a[2],o):A;return B?gx(n,h,a[3],a[4],e):B}return 0}return 0}function
+py(b){var
 a=b[2];if(typeof
 a!=="number"&&6===a[0])return 1;return 0}function
-wP(c){var
+w5(c){var
 b=0,a=c[2];if(typeof
 a==="number"){if(0!==a)b=1}else
 switch(a[0]){case
 6:case
 8:break;default:b=1}return b?0:1}function
-wQ(a){switch(a[0]){case
+w6(a){switch(a[0]){case
 8:return 0;case
-9:return jH(a[1]);default:return 1}}function
-f2(a,o,m,j,z,w,b,v,s,D,i,k,ap,c){switch(c[0]){case
+9:return jM(a[1]);default:return 1}}function
+f$(a,o,m,j,A,w,b,v,u,D,i,k,ap,c){switch(c[0]){case
 0:var
-aq=function(a){return l(I,a)},P=aq,p=c[1];break;case
+aq=function(a){return l(J,a)},R=aq,p=c[1];break;case
 1:var
-ar=c[4],as=c[3],au=c[2],av=function(c){var
-d=dg(au,k),e=f2(a,o,m,j,z,w,b,v,s,D,i,d[1],c,as);return e?f2(a,o,m,j,z,w,b,v,s,D,i,d[2],c,ar):e},P=av,p=c[1];break;default:var
+ar=c[4],at=c[3],au=c[2],av=function(c){var
+d=dk(au,k),e=f$(a,o,m,j,A,w,b,v,u,D,i,d[1],c,at);return e?f$(a,o,m,j,A,w,b,v,u,D,i,d[2],c,ar):e},R=av,p=c[1];break;default:var
 aw=c[4],ax=c[3],ay=c[2],az=function(c){var
-d=n1(wQ,j,c);if(d){var
-e=dg(ay,i),f=f2(a,o,m,j,z,w,b,v,s,D,e[1],k,c,ax);if(f)return f2(a,o,m,j,z,w,b,v,s,D,e[2],k,c,aw);var
+d=od(w6,j,c);if(d){var
+e=dk(ay,i),f=f$(a,o,m,j,A,w,b,v,u,D,e[1],k,c,ax);if(f)return f$(a,o,m,j,A,w,b,v,u,D,e[2],k,c,aw);var
 g=f}else
 var
-g=d;return g},P=az,p=c[1]}var
-ae=h(D,i),ab=aj(wP,p),ac=ab?jA(a,m,i,cO(y(function(c){var
-a=E(j,c[1]);if(a){var
+g=d;return g},R=az,p=c[1]}var
+ae=h(D,i),ab=ag(w5,p),ac=ab?jH(a,m,i,cp(y(function(c){var
+a=F(j,c[1]);if(a){var
 b=a[1];switch(b[0]){case
 8:var
 d=b[1][6];return y(function(a){var
-b=e(aJ,a[1][2][2]);return[0,a[1][1],b]},d);case
-9:return fH(0,0,0,b[1],c[2]);default:return 0}}return a},p),m),k):ab,ad=aj(pk,p);if(ad)var
+b=e(aK,a[1][2][2]);return[0,a[1][1],b]},d);case
+9:return fQ(0,0,0,b[1],c[2]);default:return 0}}return a},p),m),k):ab,ad=ag(py,p);if(ad)var
 an=y(function(b){var
-c=pk(b);if(c){var
-a=E(j,b[1]);if(a)return pg(a[1]);var
+c=py(b);if(c){var
+a=F(j,b[1]);if(a)return pu(a[1]);var
 d=a}else
 var
-d=c;return d},p),ao=b?[0,b[1],0]:b,ah=mR(g(ao,an),o),O=j7(a,i,eB(hC(eB(o,0),ah),0),k);else
+d=c;return d},p),ao=b?[0,b[1],0]:b,ai=mU(g(ao,an),o),O=j_(a,i,eD(hP(eD(o,0),ai),0),k);else
 var
 O=ad;var
-q=p,f=ap;for(;;){if(q){var
-T=q[1],F=T[2],n=T[1],H=q[2];if(n){var
-U=r(n,f,0);if(U){var
-L=E(j,n);if(L){var
-V=pj(a,m,i,z,w,b,v,s,ae,k,O,ac,L[1],F);if(V){var
-q=H,f=hl(n,f);continue}var
-W=V}else
-var
-W=L;var
+r=p,f=ap;for(;;){if(r){var
+U=r[1],E=U[2],n=U[1],H=r[2];if(n){var
+V=q(n,f,0);if(V){var
+K=F(j,n);if(K){var
+W=px(a,m,i,A,w,b,v,u,ae,k,O,ac,K[1],E);if(W){var
+r=H,f=hy(n,f);continue}var
 X=W}else
 var
-X=U;var
-B=X}else{var
+X=K;var
+Y=X}else
+var
+Y=V;var
+C=Y}else{var
 af=0;if(typeof
-F==="number"&&4===F){var
-ag=0;if(b){var
-am=0,Q=e(function(b){return[0,b,S(a,b)]},k),ai=e(aJ,Q),ak=g(e(at,Q),ai),al=c_(0,function(o){return function(b){switch(b[0]){case
-0:return[0,r(b[1],o,u)];case
-1:return[0,r(b[1],i,u)];case
-2:return[0,J(a,b[1])];case
+E==="number"&&4===E){var
+ah=0;if(b){var
+am=0,S=e(function(b){return[0,b,P(a,b)]},k),aj=e(aK,S),ak=g(e(as,S),aj),al=cR(0,function(o){return function(b){switch(b[0]){case
+0:return[0,q(b[1],o,t)];case
+1:return[0,q(b[1],i,t)];case
+2:return[0,L(a,b[1])];case
 3:var
-c=b[2],d=b[1];return dt(function(b,a){return[0,A(b,a)]},d,c);case
+c=b[2],d=b[1];return dw(function(b,a){return[0,z(b,a)]},d,c);case
 4:var
-e=b[2],f=b[1];return dt(function(b,a){return[0,C(b,a)]},f,e);case
+e=b[2],f=b[1];return dw(function(b,a){return[0,B(b,a)]},f,e);case
 5:var
-g=b[1];return ds(function(a){return[0,$(a)]},g);case
+g=b[1];return dv(function(a){return[0,Q(a)]},g);case
 6:var
-h=b[2],j=b[1];return dt(function(c,b){return[0,t(a,c,b)]},j,h);case
+h=b[2],j=b[1];return dw(function(c,b){return[0,s(a,c,b)]},j,h);case
 7:var
-k=b[2],l=b[1];return dt(function(c,b){var
-d=b2(a,b);return x(function(b){return t(a,c,b)},d)},l,k);case
+k=b[2],l=b[1];return dw(function(c,b){var
+d=bN(a,b);return x(function(b){return s(a,c,b)},d)},l,k);case
 8:var
-m=b[1];return ds(function(b){return[0,S(a,b)]},m);case
+m=b[1];return dv(function(b){return[0,P(a,b)]},m);case
 9:var
-n=b[1];return ds(function(b){return ck(a,b)},n);default:return 0}}}(ak),o),G=r(b[1],al,am);if(G){var
-M=K(G[1][2],d);ag=1}else
+n=b[1];return dv(function(b){return cn(a,b)},n);default:return 0}}}(ak),o),G=q(b[1],al,am);if(G){var
+M=I(G[1][2],d);ah=1}else
 var
-R=G}else
+T=G}else
 var
-R=b;if(!ag)var
-M=R;if(M){var
-q=H,f=e(function(a){return 0},f);continue}var
-B=M}else
+T=b;if(!ah)var
+M=T;if(M){var
+r=H,f=e(function(a){return 0},f);continue}var
+C=M}else
 af=1;if(af){var
-Y=r(n,f,0);if(Y){var
-N=E(j,n);if(N){var
-Z=pj(a,m,i,z,w,b,v,s,ae,k,O,ac,N[1],F);if(Z){var
-q=H,f=hl(n,f);continue}var
-_=Z}else
+Z=q(n,f,0);if(Z){var
+N=F(j,n);if(N){var
+_=px(a,m,i,A,w,b,v,u,ae,k,O,ac,N[1],E);if(_){var
+r=H,f=hy(n,f);continue}var
+$=_}else
 var
-_=N;var
-aa=_}else
+$=N;var
+aa=$}else
 var
-aa=Y;var
-B=aa}}}else
+aa=Z;var
+C=aa}}}else
 var
-B=[0,f];return B?P(B[1]):B}}function
-kj(d,a){var
-e=W(a),f=s(s(m(c(2,b)),a),d);return B(z(W(d),f),e)}function
-kk(k,a,d,j,c,i){var
-e=af(z,d8(k),j);if(i){var
+C=[0,f];return C?R(C[1]):C}}function
+km(d,a){var
+e=X(a),f=u(u(n(c(2,b)),a),d);return C(A(X(d),f),e)}function
+kn(k,a,d,j,c,i){var
+e=ah(A,d$(k),j);if(i){var
 b=function(b){var
-c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=fZ([0,b(function(a){return a[1]}),g,f],e);return af(B,a8(d,c),l)}var
-m=fZ(a,c);return af(B,a8(d,e),m)}function
-pl(f,h,g,k,a,d){var
-e=d8(f),i=af(z,e,a),j=fZ(h,d),l=kj(e[3],a[3]),n=kj(e[2],a[2]),o=kj(e[1],a[1]),p=B(B(B(aa(d,d),o),n),l),q=aa(j,i),r=s(m(c(2,b)),q),t=B(s(g,p),r),u=bp(bs(j,i),k);return[0,f0(f,kk(f,h,g,a,d,0),u),t]}function
-pm(d,c,b,a){var
-e=hH(c,b,a);return af(B,d8(d),e)}function
-pn(g,f,e,d,c){var
-b=pm(g,f,e,c),a=af(z,b,d);return[0,[0,b,a],aM(aa(a,a))]}function
-hK(b,a){var
-c=bh(a[2],b);return g(bh(a[1],b),c)}function
-kl(d,b,a,c){if(a)var
-e=a[1],g=cs(c,hK(b,e)),i=N(c,f(hK(b,e))),j=kl(d,b,a[2],i),k=am(g,wR),h=[0,as(d,am(g,0),k),j];else
+c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=f8([0,b(function(a){return a[1]}),g,f],e);return ah(C,a_(d,c),l)}var
+m=f8(a,c);return ah(C,a_(d,e),m)}function
+pz(f,h,g,k,a,d){var
+e=d$(f),i=ah(A,e,a),j=f8(h,d),l=km(e[3],a[3]),m=km(e[2],a[2]),o=km(e[1],a[1]),p=C(C(C(ac(d,d),o),m),l),q=ac(j,i),r=u(n(c(2,b)),q),s=C(u(g,p),r),t=bq(bt(j,i),k);return[0,f9(f,kn(f,h,g,a,d,0),t),s]}function
+pA(d,c,b,a){var
+e=hU(c,b,a);return ah(C,d$(d),e)}function
+pB(g,f,e,d,c){var
+b=pA(g,f,e,c),a=ah(A,b,d);return[0,[0,b,a],aO(ac(a,a))]}function
+hX(b,a){var
+c=bi(a[2],b);return g(bi(a[1],b),c)}function
+ko(d,b,a,c){if(a)var
+e=a[1],g=cw(c,hX(b,e)),i=O(c,f(hX(b,e))),j=ko(d,b,a[2],i),k=ao(g,w7),h=[0,at(d,ao(g,0),k),j];else
 var
 h=a;return h}function
-km(f,o,e,n,a){var
-g=s(W(r(0,n,m(d))),o);if(typeof
+kp(f,o,e,m,a){var
+g=u(X(q(0,m,n(d))),o);if(typeof
 a!=="number")switch(a[0]){case
 2:var
-b=E(e,a[1]);if(b)var
-h=i(f,0,a[2]),j=h?[0,z(b[1][1][2],g)]:h;else
+b=F(e,a[1]);if(b)var
+h=i(f,0,a[2]),j=h?[0,A(b[1][1][2],g)]:h;else
 var
 j=b;return j;case
 3:var
-c=E(e,a[1]);if(c)var
-k=i(f,0,a[2]),l=k?[0,z(g,c[1][1][2])]:k;else
+c=F(e,a[1]);if(c)var
+k=i(f,0,a[2]),l=k?[0,A(g,c[1][1][2])]:k;else
 var
 l=c;return l}return 0}function
-po(c,b,a){if(typeof
+pC(c,b,a){if(typeof
 a!=="number"&&6===a[0]){var
-e=E(c,a[1]);return x(function(a){var
-c=r(0,b,m(d)),e=h(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
-hL(a){return i(j,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
-pp(a){var
-b=am(a,wS),c=aM(aa(am(a,wT),b));return s(r(0,a,m(d)),c)}function
-pq(b,a){var
-c=aa(a,am(b,wU));return[0,bM(a8(pp(b),a)),c]}function
-pr(e,d,a,c,b){var
-f=b[2],g=s(pp(a),f),h=c?hH(e,d,am(a,wV)):am(a,wW);return z(aa(b[1][2],h),g)}function
-ps(h,g,f,d,c,b,a){var
-i=bC(c);function
-j(a){return pm(h,g,f,a)}return n7(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
-d$(a){var
-b=r(wX,a,m(d));return ai(r(0,a,m(d)),b)}function
-kn(a){return a[4][2]}function
-pt(f,o,n,l,a){var
-p=a[1][2],q=e(aJ,fM(n,a[1][2])),h=d$(l),i=s(s(m(c(2,b)),o),h),d=a[1][1],j=ay(bS(f),d),k=e(function(a){return s(a,i)},j);return[0,g(g(ao(bS(f),d),k),q),p]}function
-pu(a){var
-b=a[3],c=a[2],d=a[1];return hw([0,[0,d,d],[0,c,c],[0,b,b]])}function
-w6(a){if(typeof
+e=F(c,a[1]);return x(function(a){var
+c=q(0,b,n(d)),e=h(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
+hY(a){return i(j,0,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],a])}function
+pD(a){var
+b=ao(a,w8),c=aO(ac(ao(a,w9),b));return u(q(0,a,n(d)),c)}function
+pE(b,a){var
+c=ac(a,ao(b,w_));return[0,bP(a_(pD(b),a)),c]}function
+pF(e,d,a,c,b){var
+f=b[2],g=u(pD(a),f),h=c?hU(e,d,ao(a,w$)):ao(a,xa);return A(ac(b[1][2],h),g)}function
+pG(h,g,f,d,c,b,a){var
+i=bx(c);function
+j(a){return pA(h,g,f,a)}return oj(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
+ec(a){var
+b=q(xb,a,n(d));return aj(q(0,a,n(d)),b)}function
+kq(a){return a[4][2]}function
+pH(f,o,m,l,a){var
+p=a[1][2],q=e(aK,fV(m,a[1][2])),h=ec(l),i=u(u(n(c(2,b)),o),h),d=a[1][1],j=az(bV(f),d),k=e(function(a){return u(a,i)},j);return[0,g(g(aq(bV(f),d),k),q),p]}function
+pI(a){var
+b=a[3],c=a[2],d=a[1];return hJ([0,[0,d,d],[0,c,c],[0,b,b]])}function
+xk(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-pv(b,a){switch(b){case
+pJ(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-hM(a){var
-c=co(a[1],[0,d,b]);return c?co(a[2],[0,d,b]):c}function
-ko(d,a){switch(d){case
-0:return hM(a[3]);case
+hZ(a){var
+c=cs(a[1],[0,d,b]);return c?cs(a[2],[0,d,b]):c}function
+kr(d,a){switch(d){case
+0:return hZ(a[3]);case
 1:return 1;default:var
-b=hM(a[1]),c=b?hM(a[2]):b;return c?hM(a[3]):c}}function
-kp(c,b){var
-a=y(function(a){return hK(c,a)},b),d=V(aB(0,f(a)),a);return e(at,aZ(function(a){return jP(a[2])},d))}function
-pw(b){var
+b=hZ(a[1]),c=b?hZ(a[2]):b;return c?hZ(a[3]):c}}function
+ks(c,b){var
+a=y(function(a){return hX(c,a)},b),d=N(aA(0,f(a)),a);return e(as,aW(function(a){return jS(a[2])},d))}function
+pK(b){var
 a=b[2];if(typeof
 a!=="number")switch(a[0]){case
 10:case
 12:return 1}return 0}function
-px(c){var
-a=c;for(;;){if(0===a[0])return aj(pw,a[1]);var
-d=aj(pw,a[1]),b=d||px(a[3]);if(b)return b;var
+pL(c){var
+a=c;for(;;){if(0===a[0])return ag(pK,a[1]);var
+d=ag(pK,a[1]),b=d||pL(a[3]);if(b)return b;var
 a=a[4];continue}}function
-w7(a,aR,bB,C,D,aQ){var
-o=C[1],k=bH(o),Z=C[6],bC=C[2],O=y(function(a){return hK(D,a)},bC),aT=C[3],T=[0,[0,aT,aT],D],ae=[0,f(O)],bD=0,aU=y(function(a){return fX(bD,D,a)},Z),bE=bS(o),aV=oV(C[5],bE),p=aV[2],H=aV[1],M=bO(T,f(O)),bJ=C[2],U=f(O),bG=0,w=kl(function(c,a){function
+xl(a,aS,bB,B,E,aR){var
+o=B[1],k=bK(o),_=B[6],bC=B[2],R=y(function(a){return hX(E,a)},bC),aT=B[3],V=[0,[0,aT,aT],E],ae=[0,f(R)],bD=0,aU=y(function(a){return f6(bD,E,a)},_),bE=bV(o),aV=o9(B[5],bE),p=aV[2],I=aV[1],M=bR(V,f(R)),bG=B[2],W=f(R),bF=0,w=ko(function(c,a){function
 h(e){var
-b=o6(o,bH(o)),m=o8(o,H,p,c,a,b)[2],f=o8(o,H,p,c,a,b),g=f[1],h=bp(g[2],f[2]),i=bs(g[1],h),j=af(B,i,bs(i,b)),d=a8(kc(b),j),k=s(d[3],e),l=s(d[2],e);return[0,f0(o,h,[0,s(d[1],e),l,k]),m]}function
+b=pi(o,bK(o)),m=pk(o,I,p,c,a,b)[2],f=pk(o,I,p,c,a,b),g=f[1],h=bq(g[2],f[2]),i=bt(g[1],h),j=ah(C,i,bt(i,b)),d=a_(kf(b),j),k=u(d[3],e),l=u(d[2],e);return[0,f9(o,h,[0,u(d[1],e),l,k]),m]}function
 i(F){var
-k=pn(o,H,p,c,a),l=k[1],D=af(z,d8(o),c),n=k[2],i=l[1],E=l[2],e=hH(H,p,a),h=bp(E,n),u=ai(aa(e,h),M),v=W(M),w=ai(aa(a,a),v),x=2<=o?d:b,y=B(m(x),w),A=o0(o,e,M),f=af(z,[0,[0,[1,U]],[0,[1,[0,U]]],[0,[1,[0,[0,U]]]]],c),g=bp(f,aM(aa(f,f)));if(o)var
-j=hG(o,U,c,i,g[3]);else
+k=pB(o,I,p,c,a),l=k[1],D=ah(A,d$(o),c),m=k[2],i=l[1],E=l[2],e=hU(I,p,a),h=bq(E,m),u=aj(ac(e,h),M),v=X(M),w=aj(ac(a,a),v),x=2<=o?d:b,y=C(n(x),w),z=pc(o,e,M),f=ah(A,[0,[0,[1,W]],[0,[1,[0,W]]],[0,[1,[0,[0,W]]]]],c),g=bq(f,aO(ac(f,f)));if(o)var
+j=hT(o,W,c,i,g[3]);else
 var
-s=m(d),t=m(d),j=[0,m(d),t,s];var
-q=hG(o,U,c,i,g[2]),r=[0,hG(o,U,c,i,g[1]),q,j],C=kb(function(a,b){return o1(r,h,e,M,a,b)},A);return[0,f0(o,h,bp(bs(e,bp(D,n)),M)),C,y,u]}var
-j=pn(o,H,p,c,a);function
-k(b){return kk(o,H,p,c,a,b)}var
+s=n(d),t=n(d),j=[0,n(d),t,s];var
+q=hT(o,W,c,i,g[2]),r=[0,hT(o,W,c,i,g[1]),q,j],B=ke(function(a,b){return pd(r,h,e,M,a,b)},z);return[0,f9(o,h,bq(bt(e,bq(D,m)),M)),B,y,u]}var
+j=pB(o,I,p,c,a);function
+k(b){return kn(o,I,p,c,a,b)}var
 e=2<=o?d:b;function
 f(b){var
-c=W(M),d=m(e),f=s(z(W(b),d),c);return s(p,z(aa(a,a),f))}var
-g=[0,aa(kk(o,H,p,c,a,1),a),f];return[0,pl(o,H,p,M,c,a),g,k,j,i,h]},D,bJ,bG),X=e(function(a){return a[1]},w),bK=N(ae,f(aU)),bL=bS(o),bN=C[5];function
-R(a){return[0,[0,N(bL,a)]]}var
-aI=W([0,[1,bK]]);switch(bN[0]){case
+c=X(M),d=n(e),f=u(A(X(b),d),c);return u(p,A(ac(a,a),f))}var
+g=[0,ac(kn(o,I,p,c,a,1),a),f];return[0,pz(o,I,p,M,c,a),g,k,j,i,h]},E,bG,bF),Y=e(function(a){return a[1]},w),bH=O(ae,f(aU)),bJ=bV(o),bM=B[5];function
+U(a){return[0,[0,O(bJ,a)]]}var
+aJ=X([0,[1,bH]]);switch(bM[0]){case
 2:var
-br=R(v$),bt=R(wa),aK=[0,R(0),bt,br],G=[0,z(aI,aa(aK,aK))];break;case
+br=U(wp),bs=U(wq),aL=[0,U(0),bs,br],G=[0,A(aJ,ac(aL,aL))];break;case
 3:var
-bu=W(R(wb)),bv=W(R(0)),bw=W(R(wc)),G=[0,z(z(s(aI,B(m(b),bw)),bv),bu)];break;default:var
+bu=X(U(wr)),bv=X(U(0)),bw=X(U(ws)),G=[0,A(A(u(aJ,C(n(b),bw)),bv),bu)];break;default:var
 G=0}var
-aW=C[7];if(aW)var
-bP=0,bQ=C[2],ao=kl(function(k,t){var
-a=pl(o,H,p,bO(T,f(O)),k,t);switch(o){case
+aY=B[7];if(aY)var
+bN=0,bO=B[2],ao=ko(function(k,t){var
+a=pz(o,I,p,bR(V,f(R)),k,t);switch(o){case
 0:var
 c=a[1];if(c){var
 l=c[2],e=c[1];if(l){var
-n=l[1],s=a[2];return[0,[0,e,[0,n,[0,bs(k,[0,e,n,m(d)])[3],0]]],s]}return[0,[0,e,0],a[2]]}return[0,0,a[2]];case
+m=l[1],s=a[2];return[0,[0,e,[0,m,[0,bt(k,[0,e,m,n(d)])[3],0]]],s]}return[0,[0,e,0],a[2]]}return[0,0,a[2]];case
 1:var
 g=a[1];if(g){var
 h=g[2],b=g[1];if(h){var
 q=h[2],i=h[1];if(q){var
-r=q[1],j=bs(k,[0,b,i,r]);return[0,[0,b,[0,i,[0,r,[0,j[1],[0,j[2],[0,j[3],0]]]]]],a[2]]}return[0,[0,b,[0,i,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]];default:return[0,a[1],a[2]]}},D,bQ,bP);else
+r=q[1],j=bt(k,[0,b,i,r]);return[0,[0,b,[0,i,[0,r,[0,j[1],[0,j[2],[0,j[3],0]]]]]],a[2]]}return[0,[0,b,[0,i,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]];default:return[0,a[1],a[2]]}},E,bO,bN);else
 var
-ao=aW;var
-bR=bF(ao),bT=G?[0,G[1],0]:G,bU=g(bT,bR),bV=0,bW=g(O,[0,T,0]),bA=e(function(a){return a[1]},w),bX=[0,p,g(dr(function(c,b){if(typeof
+ao=aY;var
+bQ=bI(ao),bS=G?[0,G[1],0]:G,bT=g(bS,bQ),bU=0,bW=g(R,[0,V,0]),bA=e(function(a){return a[1]},w),bX=[0,p,g(du(function(c,b){if(typeof
 b!=="number")switch(b[0]){case
 6:var
-f=po(w,c,b);if(f)var
+f=pC(w,c,b);if(f)var
 j=f[1],k=[0,j[1],[0,j[2],0]];else
 var
 k=f;return k;case
-8:return e(aJ,hy(bA,c));case
+8:return e(aK,hL(bA,c));case
 13:var
-i=E(w,b[1]);if(i){var
-l=hL(b[4]);if(l){var
-m=pq(c,h(i[1][3],b[2]));return g(m[1],[0,m[2],0])}var
+i=F(w,b[1]);if(i){var
+l=hY(b[4]);if(l){var
+m=pE(c,h(i[1][3],b[2]));return g(m[1],[0,m[2],0])}var
 n=l}else
 var
 n=i;return n;case
-16:return y(function(a){return pt(o,M,bW,c,a)[1]},w)}var
-d=km(a,p,w,c,b),q=d?[0,d[1],0]:d;return q},bV,D,ae,Z),bU)],ap=g(bF(X),bX),bY=0,bZ=g(O,[0,T,0]),aX=dr(function(b,a){if(typeof
+16:return y(function(a){return pH(o,M,bW,c,a)[1]},w)}var
+d=kp(a,p,w,c,b),q=d?[0,d[1],0]:d;return q},bU,E,ae,_),bT)],ap=g(bI(Y),bX),bY=0,bZ=g(R,[0,V,0]),aZ=du(function(b,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-f=E(w,a[1]);if(f){if(hL(a[4]))return 0;var
-k=[0,pr(H,p,b,a[2],f[1][4]),0]}else
+f=F(w,a[1]);if(f){if(hY(a[4]))return 0;var
+k=[0,pF(I,p,b,a[2],f[1][4]),0]}else
 var
 k=f;return k;case
 14:var
-i=ps(o,H,p,w,b,a[1],a[2]);if(i){var
-l=i[1],n=l[2],q=l[1];return y(bM,[0,q[1],[0,q[2],[0,n[1],[0,n[2],0]]]])}return i;case
+i=pG(o,I,p,w,b,a[1],a[2]);if(i){var
+l=i[1],m=l[2],r=l[1];return y(bP,[0,r[1],[0,r[2],[0,m[1],[0,m[2],0]]]])}return i;case
 15:var
-j=E(w,a[1]);if(j){var
-c=h(j[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,r(wY,b,m(d)),s],u=[0,r(0,b,m(d)),t],v=g(cL(c[2]),u);return g(c[1],v)}return j;case
+j=F(w,a[1]);if(j){var
+c=h(j[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,q(xc,b,n(d)),s],u=[0,q(0,b,n(d)),t],v=g(cP(c[2]),u);return g(c[1],v)}return j;case
 16:var
 x=y(function(a){var
-b=e(aJ,fM(bZ,kn(a)));return[0,kn(a),b]},w);return g(y(function(a){var
-c=d$(b),d=[0,h(a[6],c)[2],0],e=d$(b);return g(h(a[6],e)[1],d)},w),x)}return 0},bY,D,ae,Z),aY=db(e(function(a){return bI(k,a)},ap)),a2=db(aX),_=da(aY),a3=da(a2),b0=cP(_);function
-v(a){return h(b0,bI(k,a))}var
-K=cP(a3);function
-a4(i){if(0===C[4][0]){var
-s=x(v,G),t=v(p),e=bS(o),g=n(f(i),k);if(g)var
-h=x(function(a){return[0,[0,a,d],d]},s),a=function(a){return r(a,_,m(d))},c=a(t),j=aB(0,e),b=l(function(b){var
-d=d6(k,b,c),e=d?l(function(d){var
+b=e(aK,fV(bZ,kq(a)));return[0,kq(a),b]},w);return g(y(function(a){var
+c=ec(b),d=[0,h(a[6],c)[2],0],e=ec(b);return g(h(a[6],e)[1],d)},w),x)}return 0},bY,E,ae,_),a0=dd(e(function(a){return bL(k,a)},ap)),a1=dd(aZ),aa=dc(a0),a3=dc(a1),b0=cS(aa);function
+v(a){return h(b0,bL(k,a))}var
+K=cS(a3);function
+a4(i){if(0===B[4][0]){var
+s=x(v,G),t=v(p),e=bV(o),g=m(f(i),k);if(g)var
+h=x(function(a){return[0,[0,a,d],d]},s),a=function(a){return q(a,aa,n(d))},c=a(t),j=aA(0,e),b=l(function(b){var
+d=d9(k,b,c),e=d?l(function(d){var
 f=d[1],e=l(function(c){var
-d=a(c);return cX(N(k,b),d)},f);if(e){var
-g=a(d[2]);return hA(c,N(k,b),g)}return e},i):d;if(e){if(h){var
-g=a(h[1][1][1]);return cX(N(k,b),g)}var
+d=a(c);return c0(O(k,b),d)},f);if(e){var
+g=a(d[2]);return hN(c,O(k,b),g)}return e},i):d;if(e){if(h){var
+g=a(h[1][1][1]);return c0(O(k,b),g)}var
 f=1}else
 var
 f=e;return f},j);else
 var
 b=g;var
-q=b?e:b;return q}return 0}var
-Y=a4(h(az(v),X)),a5=l(function(a){var
-b=bI(k,a),c=m(d);return a0(r(v(a),_,c),b)},ap),a6=a5?l(function(a){return hB(k,a)},ap):a5,a7=a6?l(function(a){var
-b=m(d);return a0(r(h(K,a),a3,b),a)},aX):a6,a9=a7?aj(w6,Z):a7;if(a9)var
-b1=I(C[7]),aq=b1||o$(a,[0,o],[0,C[5]]);else
+r=b?e:b;return r}return 0}var
+Z=a4(h(aB(v),Y)),a5=l(function(a){var
+b=bL(k,a),c=n(d);return a2(q(v(a),aa,c),b)},ap),a6=a5?l(function(a){return hO(k,a)},ap):a5,a7=a6?l(function(a){var
+b=n(d);return a2(q(h(K,a),a3,b),a)},aZ):a6,a8=a7?ag(xk,_):a7;if(a8)var
+b1=J(B[7]),aq=b1||pn(a,[0,o],[0,B[5]]);else
 var
-aq=a9;var
-a_=aq?ko(o,eS(C[4])):aq,a$=a_?i(a,1,C[3]):a_;if(a$)var
-b2=hF(C[5]),as=l(function(b){var
-c=cw(a,b[1]);return c?cw(a,b[2]):c},b2);else
+aq=a8;var
+a9=aq?kr(o,eW(B[4])):aq,a$=a9?i(a,1,B[3]):a9;if(a$)var
+b2=hS(B[5]),ar=l(function(b){var
+c=cA(a,b[1]);return c?cA(a,b[2]):c},b2);else
 var
-as=a$;if(as){var
-b3=g(O,[0,T,0]),au=ac(e(function(b){return ar(a,b)},b3));if(au){var
-av=ac(e(function(b){return hz(a,b)},aU));if(av){var
-b4=pv(o,eS(C[4])),aw=ac(e(function(b){return ar(a,[0,b,D])},b4));if(aw){var
-ba=aw[1],b5=oX(C[5]),ax=ac(e(function(b){return oZ(a,b)},b5));if(ax){var
-bb=ax[1],b6=oW(C[5]),ay=ac(e(cv(a),b6));if(ay){var
-aA=g(O,[0,T,0]),b7=0,aC=ac(dr(function(k,g){if(typeof
+ar=a$;if(ar){var
+b3=g(R,[0,V,0]),at=ad(e(function(b){return au(a,b)},b3));if(at){var
+av=ad(e(function(b){return hM(a,b)},aU));if(av){var
+b4=pJ(o,eW(B[4])),aw=ad(e(function(b){return au(a,[0,b,E])},b4));if(aw){var
+ba=aw[1],b5=o$(B[5]),ax=ad(e(function(b){return pb(a,b)},b5));if(ax){var
+bb=ax[1],b6=o_(B[5]),ay=ad(e(cz(a),b6));if(ay){var
+az=g(R,[0,V,0]),b7=0,aC=ad(du(function(k,g){if(typeof
 g!=="number")switch(g[0]){case
 13:var
-C=g[4],aM=E(w,g[1]);if(aM){if(pu(g[3])&&i(a,0,C)&&i(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],C])){var
-aN=g[2],aO=aM[1];if(hL(C)){var
-aG=pq(k,h(aO[3],aN)),V=aG[2];if(i(j,0,[3,C,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]]))var
+C=g[4],aM=F(w,g[1]);if(aM){if(pI(g[3])&&i(a,0,C)&&i(a,0,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],C])){var
+aN=g[2],aO=aM[1];if(hY(C)){var
+aG=pE(k,h(aO[3],aN)),V=aG[2];if(i(j,0,[3,C,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b]]))var
 aH=0;else
 var
 bf=v(V),bg=v(V),aH=[0,[6,[0,[0,e(v,aG[1]),bg],0],bf],0];var
 aP=[0,[4,v(V)],aH]}else
 var
-aP=[0,[9,[3,h(K,pr(H,p,k,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return w4}return w5;case
+aP=[0,[9,[3,h(K,pF(I,p,k,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return xi}return xj;case
 16:var
-X=g[3],t=g[2],aQ=g[1],bh=bH(o);if(n(f(w),bh)&&i(a,0,aQ)&&i(a,1,t)&&i(a,1,X)&&cw(a,X)){var
-aI=ar(a,[0,[0,t,t],D]);if(aI){var
-bi=aI[1],aJ=h(cv(a),X);if(aJ){var
-bj=aJ[1],aK=ac(e(function(f){var
-b=jR(a,K,aA,D,aQ,t,kn(f));if(b){var
-c=od(a,v,aA,D,t,f[1][2]);if(c){var
-g=hJ(0,0,f[1][2]);if(g)var
-i=e(at,c[1]),d=[0,[0,b[1],i]];else
+X=g[3],u=g[2],aQ=g[1],bh=bK(o);if(m(f(w),bh)&&i(a,0,aQ)&&i(a,1,u)&&i(a,1,X)&&cA(a,X)){var
+aI=au(a,[0,[0,u,u],E]);if(aI){var
+bi=aI[1],aJ=h(cz(a),X);if(aJ){var
+bj=aJ[1],aK=ad(e(function(f){var
+b=jU(a,K,az,E,aQ,u,kq(f));if(b){var
+c=or(a,v,az,E,u,f[1][2]);if(c){var
+g=hW(0,0,f[1][2]);if(g)var
+i=e(as,c[1]),d=[0,[0,b[1],i]];else
 var
 d=g}else
 var
@@ -5287,46 +5473,46 @@ d=c;var
 h=d}else
 var
 h=b;return h},w));if(aK){var
-bk=aK[1],bl=e(function(a){return pt(o,M,aA,k,a)},w),aL=h(az(v),bl),W=function(a){var
-b=bS(o),c=e(function(a){var
-b=d$(k);return h(K,h(a[6],b)[2])},w),d=e(function(a){var
-b=d$(k);return e(K,h(a[6],b)[1])},w),f=a4(aL);return[0,[8,[0,aL,v(p),f,d,c,bk,bi,bj,b,a]]]};if(2<=o)return[0,W(1),0];var
-bm=[0,W(1),0];return[0,W(0),bm]}return w0}return w1}return w2}return w3}var
+bk=aK[1],bl=e(function(a){return pH(o,M,az,k,a)},w),aL=h(aB(v),bl),W=function(a){var
+b=bV(o),c=e(function(a){var
+b=ec(k);return h(K,h(a[6],b)[2])},w),d=e(function(a){var
+b=ec(k);return e(K,h(a[6],b)[1])},w),f=a4(aL);return[0,[8,[0,aL,v(p),f,d,c,bk,bi,bj,b,a]]]};if(2<=o)return[0,W(1),0];var
+bm=[0,W(1),0];return[0,W(0),bm]}return xe}return xf}return xg}return xh}var
 bn=0,y=e(function(a){return a[1]},w);function
-Z(c,b,a){return[0,c,b,a,Y]}var
+Y(c,b,a){return[0,c,b,a,Z]}var
 G=0;if(typeof
 g==="number")var
-aS=v(p),s=[0,Z(h(az(v),y),aS,u)];else
+aS=v(p),s=[0,Y(h(aB(v),y),aS,t)];else
 switch(g[0]){case
 0:var
-z=[5,[0,b,b],g[1]],I=Z;G=1;break;case
+z=[5,[0,b,b],g[1]],H=Y;G=1;break;case
 1:var
-aU=[5,[0,b,b],g[1]],z=aU,I=function(c,b,a){return[1,c,b,a]};G=1;break;case
+aU=[5,[0,b,b],g[1]],z=aU,H=function(c,b,a){return[1,c,b,a]};G=1;break;case
 2:var
-aV=km(a,p,w,k,g),s=x(function(a){return[4,v(a)]},aV);break;case
+aV=kp(a,p,w,k,g),s=x(function(a){return[4,v(a)]},aV);break;case
 3:var
-aW=km(a,p,w,k,g),s=x(function(a){return[4,v(a)]},aW);break;case
+aW=kp(a,p,w,k,g),s=x(function(a){return[4,v(a)]},aW);break;case
 5:var
-_=g[1],aX=ar(a,[0,[0,_,_],d]),s=x(function(b){var
-c=S(a,b),d=v(p);return[2,h(az(v),y),d,c]},aX);break;case
+_=g[1],aX=au(a,[0,[0,_,_],d]),s=x(function(b){var
+c=P(a,b),d=v(p);return[2,h(aB(v),y),d,c]},aX);break;case
 6:var
-L=E(w,g[1]);if(L){var
-N=po(w,k,g);if(N){var
+J=F(w,g[1]);if(J){var
+N=pC(w,k,g);if(N){var
 $=N[1],aa=i(a,1,g[2]),ab=aa?i(a,1,g[3]):aa;if(ab)var
-aY=v($[2]),aZ=v(L[1][1][2]),ad=[0,[5,[0,[0,[0,v($[1]),0],aZ],0],aY]];else
+aY=v($[2]),aZ=v(J[1][1][2]),ac=[0,[5,[0,[0,[0,v($[1]),0],aZ],0],aY]];else
 var
-ad=ab;var
-ae=ad}else
+ac=ab;var
+ae=ac}else
 var
 ae=N;var
 af=ae}else
 var
-af=L;var
+af=J;var
 s=af;break;case
 7:var
-ag=g[3],ah=g[2],ai=g[1],aj=E(w,ai),aR=0;if(aj){var
+ag=g[3],ah=g[2],ai=g[1],aj=F(w,ai),aR=0;if(aj){var
 ak=i(a,1,ah),al=ak?i(a,1,ag):ak;if(al){var
-a0=[5,ah,ag],z=a0,I=function(c,b,a){return[3,ai,c,b,a,Y]};G=1;aR=1}else
+a0=[5,ah,ag],z=a0,H=function(c,b,a){return[3,ai,c,b,a,Z]};G=1;aR=1}else
 var
 am=al}else
 var
@@ -5337,121 +5523,121 @@ an=i(a,1,g[2]);if(an)var
 a1=g[1],a2=1,O=l(function(b){return i(a,a2,b)},a1);else
 var
 O=an;if(O)var
-a3=J(a,b),a5=v(p),a6=hy(y,k),ao=[0,[0,h(az(v),a6),a5,a3,0]];else
+a3=L(a,b),a5=v(p),a6=hL(y,k),ao=[0,[0,h(aB(v),a6),a5,a3,0]];else
 var
 ao=O;var
 s=ao;break;case
 14:var
-ap=g[2],aq=g[1],P=ps(o,H,p,w,k,aq,ap);if(P){var
-as=P[1],au=as[2],av=as[1],aw=oM(aq,ap,g[3]),Q=ar(a,[0,[0,aw,aw],D]);if(Q){var
-ax=Q[1],ay=F(d,ax[1]);if(ay)var
-A=function(a){return ob(K,a)},a7=A(au[2]),a8=A(au[1]),a9=A(av[2]),aB=[0,[9,[6,A(av[1]),a9,a8,a7,ax]]];else
+ap=g[2],aq=g[1],Q=pG(o,I,p,w,k,aq,ap);if(Q){var
+ar=Q[1],at=ar[2],av=ar[1],aw=o0(aq,ap,g[3]),R=au(a,[0,[0,aw,aw],E]);if(R){var
+ax=R[1],ay=D(d,ax[1]);if(ay)var
+A=function(a){return op(K,a)},a7=A(at[2]),a8=A(at[1]),a9=A(av[2]),aA=[0,[9,[6,A(av[1]),a9,a8,a7,ax]]];else
 var
-aB=ay;var
-aC=aB}else
+aA=ay;var
+aC=aA}else
 var
-aC=Q;var
+aC=R;var
 aD=aC}else
 var
-aD=P;var
+aD=Q;var
 s=aD;break;case
 15:var
-R=E(w,g[1]);if(R){var
+S=F(w,g[1]);if(S){var
 aE=i(a,1,g[4]);if(aE)var
 aF=i(a,0,g[2]),T=aF?i(a,0,g[3]):aF;else
 var
 T=aE;if(T)var
-B=h(R[1][5],0),a$=h(K,B[4]),ba=[0,[0,h(K,B[3]),a$]],bb=h(K,r(wZ,k,m(d))),bc=h(K,r(0,k,m(d))),a_=0,bd=B[2],be=e(function(a){return e(K,a)},bd),U=[0,[9,[11,e(K,B[1]),be,bc,bb,ba,a_]]];else
+B=h(S[1][5],0),a$=h(K,B[4]),ba=[0,[0,h(K,B[3]),a$]],bb=h(K,q(xd,k,n(d))),bc=h(K,q(0,k,n(d))),a_=0,bd=B[2],be=e(function(a){return e(K,a)},bd),U=[0,[9,[11,e(K,B[1]),be,bc,bb,ba,a_]]];else
 var
 U=T}else
 var
-U=R;var
+U=S;var
 s=U;break;default:var
 s=0}if(G)var
-aT=ar(a,[0,[0,z,z],d]),s=x(function(b){var
-c=S(a,b),d=v(p);return I(h(az(v),y),d,c)},aT);return[0,s,bn]},b7,D,ae,Z));if(aC){var
-bc=aC[1];if(C[7])var
-b8=aR[2],b9=aR[1],b_=v(p),ag=jV(bB,bc,[7,h(az(v),ao),b_,b9,b8]);else
+aT=au(a,[0,[0,z,z],d]),s=x(function(b){var
+c=P(a,b),d=v(p);return H(h(aB(v),y),d,c)},aT);return[0,s,bn]},b7,E,ae,_));if(aC){var
+bc=aC[1];if(B[7])var
+b8=aS[2],b9=aS[1],b_=v(p),af=jY(bB,bc,[7,h(aB(v),ao),b_,b9,b8]);else
 var
-ag=bc;var
-bd=n(f(g(ba,bb)),k),be=bd?l(function(a){var
-b=pg(a);return l(function(a){return oT(k,_,a)},b)},ag):bd,bf=be?G?oT(k,_,v(G[1])):1:be;if(bf){var
-b$=g(av[1],ay[1]),aD=g(au[1],b$),P=px(aQ),Q=kp(D,C[2]),ad=P?e(function(a){var
-b=pe(k,Q,a[2]),c=a[1];return[0,e(function(a){return pe(k,Q,a)},c),b]},X):P,aE=P?db(ki(k,p,G,ad)):P,aG=da(aE),ah=cP(aG),ca=kg(ah,ah,ad),cb=h(ah,bI(k,p)),aH=x(function(a){return h(ah,bI(k,a))},G),bg=I(P);if(bg)var
+af=bc;var
+bd=m(f(g(ba,bb)),k),be=bd?l(function(a){var
+b=pu(a);return l(function(a){return o7(k,aa,a)},b)},af):bd,bf=be?G?o7(k,aa,v(G[1])):1:be;if(bf){var
+b$=g(av[1],ay[1]),aD=g(at[1],b$),S=pL(aR),T=ks(E,B[2]),ab=S?e(function(a){var
+b=ps(k,T,a[2]),c=a[1];return[0,e(function(a){return ps(k,T,a)},c),b]},Y):S,aE=S?dd(kl(k,p,G,ab)):S,aG=dc(aE),ai=cS(aG),ca=kj(ai,ai,ab),cb=h(ai,bL(k,p)),aI=x(function(a){return h(ai,bL(k,a))},G),bg=J(S);if(bg)var
 ak=bg;else{var
-bq=n(f(X),k);if(bq){var
-by=ki(k,p,G,ad),aN=l(function(a){var
-b=m(d);return a0(r(h(cP(aG),a),aG,b),a)},by);if(aN)var
-bz=ki(k,p,G,ad),al=l(function(a){var
-b=aB(0,k);return l(function(b){return eW(k,b,a)},b)},bz);else
+bp=m(f(Y),k);if(bp){var
+by=kl(k,p,G,ab),aN=l(function(a){var
+b=n(d);return a2(q(h(cS(aG),a),aG,b),a)},by);if(aN)var
+bz=kl(k,p,G,ab),al=l(function(a){var
+b=aA(0,k);return l(function(b){return e0(k,b,a)},b)},bz);else
 var
 al=aN;if(al){var
-aO=x(function(a){return bI(k,a)},G),am=bI(k,p),aL=pa(am);if(aL)var
-bx=aB(0,Y),aP=l(function(a){var
-b=d6(k,a,am),c=b?l(function(b){var
-d=b[2][2],e=g(y(kh,b[1]),d),f=N(k,a),c=l(function(a){return cX(f,a)},e);if(c){var
-h=b[2][1];return hA(am,N(k,a),h)}return c},ad):b;if(c){if(aO){var
-e=aO[1];return cX(N(k,a),e)}var
+aP=x(function(a){return bL(k,a)},G),am=bL(k,p),aM=po(am);if(aM)var
+bx=aA(0,Z),aQ=l(function(a){var
+b=d9(k,a,am),c=b?l(function(b){var
+d=b[2][2],e=g(y(kk,b[1]),d),f=O(k,a),c=l(function(a){return c0(f,a)},e);if(c){var
+h=b[2][1];return hN(am,O(k,a),h)}return c},ab):b;if(c){if(aP){var
+e=aP[1];return c0(O(k,a),e)}var
 d=1}else
 var
 d=c;return d},bx);else
 var
-aP=aL;var
-an=aP}else
+aQ=aM;var
+an=aQ}else
 var
 an=al;var
 ch=an?l(function(a){var
-c=a[1],b=l(function(a){return pf(k,aD,Q,a)},c);return b?pf(k,aD,Q,a[2]):b},X):an,ak=ch}else
+c=a[1],b=l(function(a){return pt(k,aD,T,a)},c);return b?pt(k,aD,T,a[2]):b},Y):an,ak=ch}else
 var
-ak=bq}if(ak){var
-cc=e(function(a){return 1},ag),cd=g(ba,bb),ce=function(p,R,ae,u,g){if(P){var
-j=function(V,i){if(typeof
+ak=bp}if(ak){var
+cc=e(function(a){return 1},af),cd=g(ba,bb),ce=function(p,P,ae,u,g){if(S){var
+j=function(W,i){if(typeof
 i!=="number"&&10===i[0]){var
-m=i[4],s=i[2],u=i[1];if(typeof
-u!=="number"&&6===u[0]){if(i[3])return 0;if(m){if(m[2])return 0;var
-v=m[1],g=u[1],z=i6(i1,e(at,s),Q),B=z?1:z,C=B?fI(Q):B,D=C?l(function(a){return aF(a,f(p))},Q):C,E=D?n(f(v),k):D;if(E){var
+n=i[4],t=i[2],u=i[1];if(typeof
+u!=="number"&&6===u[0]){if(i[3])return 0;if(n){if(n[2])return 0;var
+v=n[1],g=u[1],A=jh(jc,e(as,t),T),B=A?1:A,C=B?eT(T):B,E=C?l(function(a){return aF(a,f(p))},T):C,F=E?m(f(v),k):E;if(F){var
 y=0;if(typeof
 g!=="number")switch(g[0]){case
 0:var
 x=g[2],w=g[1],K=0;y=1;break;case
 7:var
-M=g[2],o=g[1],P=0;if(typeof
+M=g[2],o=g[1],R=0;if(typeof
 o!=="number"&&0===o[0]){var
-S=0;if(aH){var
-N=F(d,M);if(N){var
-x=o[2],w=o[1],K=[0,[0,[0,aH[1],M],g[3]]];y=1;P=1;S=1}else
+S=0;if(aI){var
+N=D(d,M);if(N){var
+x=o[2],w=o[1],K=[0,[0,[0,aI[1],M],g[3]]];y=1;R=1;S=1}else
 var
 O=N}else
 var
-O=aH;if(!S)return O}if(!P)return 0;break}if(y){var
-T=j7(a,jt(s,0,p),aE,R),q=j7(a,p,aE,R),j=function(b,a){return r(a,b,wJ)},U=pc(function(a){return j(q,a)},K),W=j(q,cb),X=function(a){return j(q,a)},Z=[0,kg(function(a){return j(T,a)},X,ca),W,U],ad=nF(s,p),_=function(q){var
-m=ac(e(wH,q[1]));if(m){var
-o=q[2];if(o){var
-p=du(q[3]);if(p){var
-_=p[1],R=A(t(a,ae,o[1]),_),aa=m[1],S=e(function(d){var
-b=hb(a,0,ad,d),c=aZ(wI,b[2]);return[0,b[1],c]},aa);if(V){var
-s=V[1],u=s[1],y=u[1],z=y[1],B=u[2],C=s[2],D=jG(a,v),E=D[1],G=E[1],h=G[2],g=G[1],W=E[2],i=e(function(c){return aS(c,W,J(a,b))},h),H=n(f(h),k),K=H?n(f(z),k):H,M=K?F(d,B):K,N=M?gU(C,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):M,O=N?aF(g,k):N,P=O?I(L(r(g,h,d),d)):O;if(P){var
-X=jx(a,g,i,k,$(R),0),Y=jy(a,g,i,z,y[2],B,C,X),j=jz(a,g,i,D[2],w,x,S,Y);if(j)return a1(a,k,j[1]);var
-Q=j}else
+O=aI;if(!S)return O}if(!R)return 0;break}if(y){var
+U=j_(a,hk(t,0,p),aE,P),r=j_(a,p,aE,P),j=function(b,a){return q(a,b,wZ)},V=pq(function(a){return j(r,a)},K),X=j(r,cb),Y=function(a){return j(r,a)},_=[0,kj(function(a){return j(U,a)},Y,ca),X,V],ac=nI(t,p),aa=function(r){var
+n=ad(e(wX,r[1]));if(n){var
+o=r[2];if(o){var
+p=dx(r[3]);if(p){var
+aa=p[1],S=z(s(a,ae,o[1]),aa),ab=n[1],T=e(function(d){var
+b=hl(a,0,ac,d),c=aW(wY,b[2]);return[0,b[1],c]},ab);if(W){var
+t=W[1],u=t[1],y=u[1],A=y[1],B=u[2],C=t[2],E=jL(a,v),F=E[1],G=F[1],h=G[2],g=G[1],X=F[2],i=e(function(c){return aH(c,X,L(a,b))},h),I=m(f(h),k),K=I?m(f(A),k):I,M=K?D(d,B):K,N=M?g2(C,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):M,O=N?aF(g,k):N,P=O?J(H(q(g,h,d),d)):O;if(P){var
+Y=jD(a,g,i,k,Q(S),0),Z=jE(a,g,i,A,y[2],B,C,Y),j=jF(a,g,i,E[2],w,x,T,Z);if(j)return aX(a,k,j[1]);var
+R=j}else
 var
-Q=P;return Q}var
-Z=ab([0,$(R),0],k),l=js(a,e(function(b){return J(a,b)},v),w,x,S,Z);return l?a1(a,k,l[1]):l}var
-T=p}else
+R=P;return R}var
+_=$([0,Q(S),0],k),l=jA(a,e(function(b){return L(a,b)},v),w,x,T,_);return l?aX(a,k,l[1]):l}var
+U=p}else
 var
-T=o;var
-U=T}else
+U=o;var
+V=U}else
 var
-U=m;return U};return h(j9(function(b,a){return wG},Y,k,_),Z)}var
+V=n;return V};return h(ka(function(b,a){return wW},Z,k,aa),_)}var
 G=0}else
 var
-G=E;var
-H=G}else
+G=F;var
+I=G}else
 var
-H=m;return H}return 0}return 0},m=n(u,Y),o=m?aF(0,Y):m;if(o){if(typeof
+I=n;return I}return 0}return 0},n=m(u,Z),o=n?aF(0,Z):n;if(o){if(typeof
 g!=="number"&&12===g[0]){var
-i=g[1],q=I(n(f(i),0));if(q){var
-s=V(jw(e(function(a){return a[1][1][1]},i)),i);return l(function(a){var
-b=a[2],c=b[1];return j([0,[0,[0,[0,a[1][1],a[1][2]],c[1][2]],c[2]]],b[2])},s)}return q}return j(0,g)}return o}return P},cf=v(p),cg=h(az(v),X);return f2(a,aY,a2,ag,k,k,x(v,G),cg,cf,ce,aD,cd,cc,aQ)}var
+i=g[1],r=J(m(f(i),0));if(r){var
+t=N(jC(e(function(a){return a[1][1][1]},i)),i);return l(function(a){var
+b=a[2],c=b[1];return j([0,[0,[0,[0,a[1][1],a[1][2]],c[1][2]],c[2]]],b[2])},t)}return r}return j(0,g)}return o}return S},cf=v(p),cg=h(aB(v),Y);return f$(a,a0,a1,af,k,k,x(v,G),cg,cf,ce,aD,cd,cc,aR)}var
 bh=ak}else
 var
 bh=bf;var
@@ -5472,132 +5658,132 @@ var
 bm=av;var
 bn=bm}else
 var
-bn=au;var
+bn=at;var
 bo=bn}else
 var
-bo=as;return bo}function
-f3(b,a){return bE(b,a[1],a[2])}function
-py(b,a){var
-c=f3(b,a[1]),d=c?f3(b,a[2]):c;return d?f3(b,a[3]):d}function
-pz(a){return typeof
+bo=ar;return bo}function
+ga(b,a){return bH(b,a[1],a[2])}function
+pM(b,a){var
+c=ga(b,a[1]),d=c?ga(b,a[2]):c;return d?ga(b,a[3]):d}function
+pN(a){return typeof
 a==="number"?0:0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-hN(a){return typeof
-a==="number"?a?d8(0):dT:d8(a[1])}function
-kq(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:bM(a):f0(b[1],a,c)}function
-hO(b,d,c){if(0===c[0])return hn(b,d[1],c[1]);var
-a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],f=g(bh(a[4],b),e),h=g(bh(a[3],b),f),i=g(bh(a[2],d[2]),h);return g(bh(a[1],d[1]),i)}function
-f4(b,a){if(b){var
-c=b[1],d=c[2];return bp(fZ(c[1],a),d)}return a}function
-kr(P,o,a){function
-p(b){return af(z,P,am(a,b))}if(0===o[0]){var
-q=o[1];switch(q[0]){case
+h0(a){return typeof
+a==="number"?a?d$(0):dX:d$(a[1])}function
+kt(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:bP(a):f9(b[1],a,c)}function
+h1(b,d,c){if(0===c[0])return hA(b,d[1],c[1]);var
+a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],f=g(bi(a[4],b),e),h=g(bi(a[3],b),f),i=g(bi(a[2],d[2]),h);return g(bi(a[1],d[1]),i)}function
+gb(b,a){if(b){var
+c=b[1],d=c[2];return bq(f8(c[1],a),d)}return a}function
+ku(P,o,a){function
+p(b){return ah(A,P,ao(a,b))}if(0===o[0]){var
+r=o[1];switch(r[0]){case
 0:var
-an=q[1][5],t=r(w8,a,m(d)),u=am(a,0),Q=p(w9),f=ni(Q,dS(u),Q,t,an),U=[0,aM(t),0],V=[0,aM(aa(u,u)),U];return[0,f[1],f[2],f[3],[0,f[4]],[0,[0,f[2],t]],V];case
+am=r[1][5],s=q(xm,a,n(d)),t=ao(a,0),Q=p(xn),f=nl(Q,dW(t),Q,s,am),U=[0,aO(s),0],V=[0,aO(ac(t,t)),U];return[0,f[1],f[2],f[3],[0,f[4]],[0,[0,f[2],s]],V];case
 1:var
-R=q[3],v=R?[0,am(a,w_)]:R,S=p(0),g=nj(S,S,0);if(v)var
-C=v[1],D=[0,aM(aa(C,C)),0];else
+R=r[3],v=R?[0,ao(a,xo)]:R,S=p(0),g=nm(S,S,0);if(v)var
+B=v[1],D=[0,aO(ac(B,B)),0];else
 var
 D=v;var
-X=g[4],Y=[0,[0,m(d),X]];return[0,g[1],g[2],g[3],[0,g[4]],Y,D];default:var
-w=am(a,0),h=nk(P,dS(w)),Z=[0,aM(aa(w,w)),0];return[0,h[1],h[2],h[3],[0,h[4]],0,Z]}}var
-x=o[1][7],y=r(w$,a,m(d)),e=r(xa,a,m(d)),T=am(a,xb),A=am(a,0),j=p(xc),i=dS(A),k=af(z,T,a8(aa(i,T),i)),l=dS(k),E=bs(i,l),F=aa(j,l),G=aa(j,E),_=aa(i,j),$=W(G),H=B(W(F),$),ab=W(_),I=z(W(y),ab),ac=s(m(c(2,b)),e),n=z(H,W(ai(B(H,z(W(e),I)),ac))),ad=g9(x,s(e,aM(n))),J=ai(F,e),K=g9(x,ai(G,e)),L=ai(I,W(e)),M=mL(0,J,K,L),N=g9(x,mL(1,J,K,L)),ae=a8(N,E),O=af(z,j,a8(e,af(B,a8(M,l),ae))),ag=[0,aM(y),0],ah=[0,aM(e),ag],aj=[0,aM(aa(k,k)),ah],ak=[0,aM(aa(A,A)),aj],al=bp(O,ad);return[0,O,s(W(e),n),al,[1,M,N],[0,[0,n,y]],ak]}function
-ks(b,c,a){if(0===c[0])switch(c[1][0]){case
-0:return h(b,am(a,xd));case
-1:return h(b,am(a,xe));default:var
-e=m(d),f=m(d);return[0,m(d),f,e]}return h(b,am(a,xf))}function
-pA(a,c,b){return 0===c[0]?2===c[1][0]?hN(a):af(B,hN(a),b):af(B,hN(a),b)}function
-kt(j,c,i,h,b,g){if(b)var
-a=b[1],k=bK([0,d,d],h),n=N(g,f(hO(c,k,a))),o=b[2],p=kt(j,c,i,bC(h),o,n),l=cs(g,hO(c,k,a)),e=ks(i,a,l),m=[0,[0,kr(pA(j,a,e),a,l),e],p];else
+W=g[4],Y=[0,[0,n(d),W]];return[0,g[1],g[2],g[3],[0,g[4]],Y,D];default:var
+w=ao(a,0),h=nn(P,dW(w)),Z=[0,aO(ac(w,w)),0];return[0,h[1],h[2],h[3],[0,h[4]],0,Z]}}var
+x=o[1][7],y=q(xp,a,n(d)),e=q(xq,a,n(d)),T=ao(a,xr),z=ao(a,0),j=p(xs),i=dW(z),k=ah(A,T,a_(ac(i,T),i)),l=dW(k),E=bt(i,l),F=ac(j,l),G=ac(j,E),_=ac(i,j),$=X(G),H=C(X(F),$),aa=X(_),I=A(X(y),aa),ab=u(n(c(2,b)),e),m=A(H,X(aj(C(H,A(X(e),I)),ab))),ad=hg(x,u(e,aO(m))),J=aj(F,e),K=hg(x,aj(G,e)),L=aj(I,X(e)),M=mO(0,J,K,L),N=hg(x,mO(1,J,K,L)),ae=a_(N,E),O=ah(A,j,a_(e,ah(C,a_(M,l),ae))),af=[0,aO(y),0],ag=[0,aO(e),af],ai=[0,aO(ac(k,k)),ag],ak=[0,aO(ac(z,z)),ai],al=bq(O,ad);return[0,O,u(X(e),m),al,[1,M,N],[0,[0,m,y]],ak]}function
+kv(b,c,a){if(0===c[0])switch(c[1][0]){case
+0:return h(b,ao(a,xt));case
+1:return h(b,ao(a,xu));default:var
+e=n(d),f=n(d);return[0,n(d),f,e]}return h(b,ao(a,xv))}function
+pO(a,c,b){return 0===c[0]?2===c[1][0]?h0(a):ah(C,h0(a),b):ah(C,h0(a),b)}function
+kw(j,c,i,h,b,g){if(b)var
+a=b[1],k=bG([0,d,d],h),n=O(g,f(h1(c,k,a))),o=b[2],p=kw(j,c,i,bx(h),o,n),l=cw(g,h1(c,k,a)),e=kv(i,a,l),m=[0,[0,ku(pO(j,a,e),a,l),e],p];else
 var
 m=b;return m}function
-ku(c,b,a){if(a){var
-e=a[2],f=ku(c,bC(b),e),h=a[1];return g(hO(c,bK([0,d,d],b),h),f)}return a}function
-pB(e,c,a,b){if(a)var
-g=a[1],h=hO(e,bK([0,d,d],c),g),j=N(b,f(h)),k=a[2],l=pB(e,bC(c),k,j),i=[0,[0,g,cs(b,h)],l];else
+kx(c,b,a){if(a){var
+e=a[2],f=kx(c,bx(b),e),h=a[1];return g(h1(c,bG([0,d,d],b),h),f)}return a}function
+pP(e,c,a,b){if(a)var
+g=a[1],h=h1(e,bG([0,d,d],c),g),j=O(b,f(h)),k=a[2],l=pP(e,bx(c),k,j),i=[0,[0,g,cw(b,h)],l];else
 var
 i=a;return i}function
-kv(a){if(typeof
+ky(a){if(typeof
 a==="number"){var
-c=m(d),e=m(d);return[0,m(d),e,c]}var
-b=a[1];return o6(b,bH(b))}function
-pC(c,b,a){var
-d=hm(hq(c),a),f=V(hm(hq(c),b),d);return e(function(c){var
-d=s(a,c[1]);return z(s(b,c[2]),d)},f)}function
-pD(b,d,c,a){var
+c=n(d),e=n(d);return[0,n(d),e,c]}var
+b=a[1];return pi(b,bK(b))}function
+pQ(c,b,a){var
+d=hz(hD(c),a),f=N(hz(hD(c),b),d);return e(function(c){var
+d=u(a,c[1]);return A(u(b,c[2]),d)},f)}function
+pR(b,d,c,a){var
 f=y(function(a){var
 c=typeof
-a==="number"?0:0===a[0]?fM(b,a[1]):jQ(b,pC(b,a[1],a[2])),d=e(aJ,c);return g(pz(a),d)},a),h=g(bF(c),f);return g(cL(d),h)}function
-pE(c,b,u,t,s,r,j,g,q,p,d,l,k,a){var
-m=ar(c,[0,[0,a,a],g]);if(m){if(l){var
-v=l[1],w=m[1],o=ac(e(function(d){if(typeof
-d==="number")return 0;else{if(0===d[0])return jR(c,b,j,g,k,a,d[1]);var
-i=d[1],e=hz(c,[1,[5,k,a],R(g)]);if(e){var
-f=oc(c,b,j,g,a,jQ(j,pC(j,i,d[2])));if(f)var
+a==="number"?0:0===a[0]?fV(b,a[1]):jT(b,pQ(b,a[1],a[2])),d=e(aK,c);return g(pN(a),d)},a),h=g(bI(c),f);return g(cP(d),h)}function
+pS(c,b,u,t,s,r,j,g,q,p,d,l,k,a){var
+n=au(c,[0,[0,a,a],g]);if(n){if(l){var
+v=l[1],w=n[1],o=ad(e(function(d){if(typeof
+d==="number")return 0;else{if(0===d[0])return jU(c,b,j,g,k,a,d[1]);var
+i=d[1],e=hM(c,[1,[5,k,a],U(g)]);if(e){var
+f=oq(c,b,j,g,a,jT(j,pQ(j,i,d[2])));if(f)var
 n=[0,e[1],f[1]],l=[0,[0,h(b,i),n]];else
 var
 l=f;var
 m=l}else
 var
 m=e;return m}},d));if(o){var
-x=o[1];if(n(f(d),u)&&i(c,0,k)&&i(c,1,a))return e(function(a){var
-c=e(b,y(pz,d)),f=h(az(b),p);return[0,[10,[0,e(function(a){return e(b,a)},q),f,c,x,r,w,v,t,a]]]},s);return xg}return xh}return xi}return xj}function
-pF(a){return typeof
+x=o[1];if(m(f(d),u)&&i(c,0,k)&&i(c,1,a))return e(function(a){var
+c=e(b,y(pN,d)),f=h(aB(b),p);return[0,[10,[0,e(function(a){return e(b,a)},q),f,c,x,r,w,v,t,a]]]},s);return xw}return xx}return xy}return xz}function
+pT(a){return typeof
 a==="number"?a?0:1:a[1]}function
-pG(a){return[0,[0,[1,a]],[0,[1,[0,a]]],[0,[1,[0,[0,a]]]]]}function
-kw(d,c,a,b){return hG(pF(d),c,a,a,b)}function
-pH(g,f,e,d){if(0===f[0])switch(f[1][0]){case
+pU(a){return[0,[0,[1,a]],[0,[1,[0,a]]],[0,[1,[0,[0,a]]]]]}function
+kz(d,c,a,b){return hT(pT(d),c,a,a,b)}function
+pV(g,f,e,d){if(0===f[0])switch(f[1][0]){case
 0:var
 a=g[6];if(a)var
-h=a[1],i=h[2],j=ai(i,aM(h[1])),n=W(j),o=s(j,B(e,s(ai(d,i),n))),k=[0,z(m(b),o)];else
+h=a[1],i=h[2],j=aj(i,aO(h[1])),m=X(j),o=u(j,C(e,u(aj(d,i),m))),k=[0,A(n(b),o)];else
 var
 k=a;return k;case
 1:var
 c=g[6];if(c)var
-p=ai(d,c[1][2]),l=[0,z(z(m(b),e),p)];else
+p=aj(d,c[1][2]),l=[0,A(A(n(b),e),p)];else
 var
 l=c;return l;default:return 0}return 0}function
-pI(c,b){var
+pW(c,b){var
 d=typeof
-c==="number"?0:1,a=I(d);return a?0===b[0]?1:0:a}function
-pJ(a){return 0===a[0]?2===a[1][0]?1:0:0}function
-pK(c,b){function
-a(a){return r(a,b,m(d))}if(0===c[1][0]){var
-e=a(xp);return[0,a(0),e]}var
-f=a(xq),g=ai(a(xr),f),h=a(xs);return[0,ai(a(0),h),g]}function
-pL(d,c,a){var
-b=a[1];return pA(d,b,ks(c,b,a[2]))}function
-pM(a,k,j,e,c){var
-l=c[1],f=pL(a,k,c),n=ks(k,l,c[2]);function
-o(a){return kr(a,l,c[2])}function
-b(a){return[0,ka(a),0]}if(typeof
+c==="number"?0:1,a=J(d);return a?0===b[0]?1:0:a}function
+pX(a){return 0===a[0]?2===a[1][0]?1:0:0}function
+pY(c,b){function
+a(a){return q(a,b,n(d))}if(0===c[1][0]){var
+e=a(xF);return[0,a(0),e]}var
+f=a(xG),g=aj(a(xH),f),h=a(xI);return[0,aj(a(0),h),g]}function
+pZ(d,c,a){var
+b=a[1];return pO(d,b,kv(c,b,a[2]))}function
+p0(a,k,j,e,c){var
+l=c[1],f=pZ(a,k,c),m=kv(k,l,c[2]);function
+o(a){return ku(a,l,c[2])}function
+b(a){return[0,kd(a),0]}if(typeof
 a==="number")if(a)var
-t=[0,b(xm),0],g=[0,b(0),t];else
+t=[0,b(xC),0],g=[0,b(0),t];else
 var
-u=[0,b(xn),0],v=[0,b(xo),u],g=[0,b(0),v];else
+u=[0,b(xD),0],v=[0,b(xE),u],g=[0,b(0),v];else
 var
-g=o0(a[1],n,j);var
-w=o(f)[3],h=o(pG(e))[3];if(pF(a))var
-i=kw(a,e,f,h[3]);else
+g=pc(a[1],m,j);var
+w=o(f)[3],h=o(pU(e))[3];if(pT(a))var
+i=kz(a,e,f,h[3]);else
 var
-r=m(d),s=m(d),i=[0,m(d),s,r];var
-p=kw(a,e,f,h[2]),q=[0,kw(a,e,f,h[1]),p,i];return kb(function(a,b){return o1(q,w,n,j,a,b)},g)}function
-pN(i,h,c,b){var
-j=b[1],k=pL(i,h,b),d=pG(c),a=kr(d,j,b[2]),f=[0,a[3][1],[0,a[3][2],[0,a[3][3],[0,a[2],0]]]],g=bM(k);return e(function(a){return j$(c,g,a)},f)}function
-pO(b,i,f,d,c,a){if(a){var
-j=a[2],k=a[1],l=pO(b,i,f,d,g(c,[0,k,0]),j),m=h(d,e(bC,g(c,j)));return as(i,as(f,bK(b,k),m),l)}return b}function
-pP(a,f,e,d,c,b){if(c){var
-g=0,h=c[1];return pO(a,e,d,function(b){return pP(a,f,e,d,h,b)},g,b)}return b?a:f}function
-pQ(a,d,c){var
-e=ht(a,c);function
-f(b,c){return t(a,b,c)}var
-g=J(a,b);return x(function(a){return pP(u,g,C,f,d,a)},e)}function
-kx(e,c,o,n){var
-a=pQ(e,c,o);if(a){var
-f=a[1],b=pQ(e,c,n);if(b){var
-g=b[1],h=K(d,f[1]),i=h?K(g[2],d):h;if(i)var
+r=n(d),s=n(d),i=[0,n(d),s,r];var
+p=kz(a,e,f,h[2]),q=[0,kz(a,e,f,h[1]),p,i];return ke(function(a,b){return pd(q,w,m,j,a,b)},g)}function
+p1(i,h,c,b){var
+j=b[1],k=pZ(i,h,b),d=pU(c),a=ku(d,j,b[2]),f=[0,a[3][1],[0,a[3][2],[0,a[3][3],[0,a[2],0]]]],g=bP(k);return e(function(a){return kc(c,g,a)},f)}function
+p2(b,i,f,d,c,a){if(a){var
+j=a[2],k=a[1],l=p2(b,i,f,d,g(c,[0,k,0]),j),m=h(d,e(bx,g(c,j)));return at(i,at(f,bG(b,k),m),l)}return b}function
+p3(a,f,e,d,c,b){if(c){var
+g=0,h=c[1];return p2(a,e,d,function(b){return p3(a,f,e,d,h,b)},g,b)}return b?a:f}function
+p4(a,d,c){var
+e=hG(a,c);function
+f(b,c){return s(a,b,c)}var
+g=L(a,b);return x(function(a){return p3(t,g,B,f,d,a)},e)}function
+kA(e,c,o,n){var
+a=p4(e,c,o);if(a){var
+f=a[1],b=p4(e,c,n);if(b){var
+g=b[1],h=I(d,f[1]),i=h?I(g[2],d):h;if(i)var
 j=i;else{var
-m=K(f[2],d);if(m)return K(d,g[1]);var
+m=I(f[2],d);if(m)return I(d,g[1]);var
 j=m}var
 k=j}else
 var
@@ -5605,53 +5791,53 @@ k=b;var
 l=k}else
 var
 l=a;return l}function
-ky(b){if(b){var
+kB(b){if(b){var
 a=b[2],c=b[1];if(c){var
 e=c[2],q=c[1];if(e){var
-f=e[2],r=e[1];if(f){if(f[2])return m(d);if(a){var
+f=e[2],r=e[1];if(f){if(f[2])return n(d);if(a){var
 g=a[2],h=a[1];if(h){var
-i=h[2],t=h[1];if(i){var
-j=i[2],u=i[1];if(j){var
-v=j[1];if(j[2])return m(d);if(g){var
+i=h[2],s=h[1];if(i){var
+j=i[2],t=i[1];if(j){var
+v=j[1];if(j[2])return n(d);if(g){var
 k=g[1];if(k){var
 l=k[2],w=k[1];if(l){var
-n=l[2],x=l[1];if(n){var
-y=n[1];if(n[2])return m(d);if(g[2])return m(d);var
-A=dZ(t,u,w,x),C=s(f[1],A),D=s(r,dZ(t,v,w,y));return B(z(s(q,dZ(u,v,x,y)),D),C)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}if(a){var
+m=l[2],x=l[1];if(m){var
+y=m[1];if(m[2])return n(d);if(g[2])return n(d);var
+z=d2(s,t,w,x),B=u(f[1],z),D=u(r,d2(s,v,w,y));return C(A(u(q,d2(t,v,x,y)),D),B)}return n(d)}return n(d)}return n(d)}return n(d)}return n(d)}return n(d)}return n(d)}return n(d)}if(a){var
 o=a[1];if(o){var
-p=o[2];return p?p[2]?m(d):a[2]?m(d):dZ(q,r,o[1],p[1]):m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}function
-pR(a){if(a){var
+p=o[2];return p?p[2]?n(d):a[2]?n(d):d2(q,r,o[1],p[1]):n(d)}return n(d)}return n(d)}return n(d)}return n(d)}return n(d)}function
+p5(a){if(a){var
 b=a[1][6];if(b)var
-c=pR(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=p5(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return xt}function
-pS(g,k,a){function
-b(a){return r(a,k,m(d))}function
+d=b;return d}return xJ}function
+p6(g,k,a){function
+b(a){return q(a,k,n(d))}function
 l(a){var
-e=a[2],f=s(W(b(0)),e),c=0,d=0,g=a[1];return[0,[0,bD(function(b,a){return z(b,W(a))},g,f),d],c]}function
-n(e){var
+e=a[2],f=u(X(b(0)),e),c=0,d=0,g=a[1];return[0,[0,by(function(b,a){return A(b,X(a))},g,f),d],c]}function
+m(e){var
 a=e[6];if(a)var
-c=a[1],f=W(c[2]),g=s(W(b(0)),f),d=[0,[0,z(c[1],g),0],0];else
+c=a[1],f=X(c[2]),g=u(X(b(0)),f),d=[0,[0,A(c[1],g),0],0];else
 var
 d=a;return d}var
 j=0;if(typeof
 a==="number")j=1;else
 switch(a[0]){case
 2:var
-u=function(c){var
+t=function(c){var
 a=c[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=b(0);return[0,[0,z(a[1],d),0],0]}return 0},f=u,c=a[1];break;case
+d=b(0);return[0,[0,A(a[1],d),0],0]}return 0},f=t,c=a[1];break;case
 3:var
 v=function(c){var
 a=c[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=a[1];return[0,[0,z(b(0),d),0],0]}return 0},f=v,c=a[1];break;case
+d=a[1];return[0,[0,A(b(0),d),0],0]}return 0},f=v,c=a[1];break;case
 4:var
 w=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-c=a[2],d=a[1],f=s(b(xu),c),g=[0,[0,z(s(b(xv),d),f),0],0],h=s(d,b(xw));return[0,[0,z(s(c,b(0)),h),0],g]}return 0},f=w,c=a[1];break;case
+c=a[2],d=a[1],f=u(b(xK),c),g=[0,[0,A(u(b(xL),d),f),0],0],h=u(d,b(xM));return[0,[0,A(u(c,b(0)),h),0],g]}return 0},f=w,c=a[1];break;case
 6:var
 x=function(a){var
 b=a[4];if(typeof
@@ -5661,154 +5847,154 @@ y=function(a){var
 b=a[4];if(typeof
 b!=="number"&&1===b[0])return l(a);return 0},f=y,c=a[1];break;case
 10:var
-f=n,c=a[1];break;case
+f=m,c=a[1];break;case
 11:var
-A=function(a){var
+z=function(a){var
 b=a[4];if(typeof
-b!=="number"&&0===b[0])return n(a);return 0},f=A,c=a[1];break;case
+b!=="number"&&0===b[0])return m(a);return 0},f=z,c=a[1];break;case
 12:var
-i=pR(g);if(i)var
-C=b(0),o=bD(s,i[1],C),p=ky(e(function(a){return a[5]},g)),D=[0,bx(B(p,o)),0],q=[0,[0,z(p,o),D],0];else
+i=p5(g);if(i)var
+B=b(0),o=by(u,i[1],B),p=kB(e(function(a){return a[5]},g)),D=[0,bB(C(p,o)),0],r=[0,[0,A(p,o),D],0];else
 var
-q=i;return q;case
+r=i;return r;case
 17:var
-t=a[1],f=function(d){var
-a=ky(e(function(a){return a[1]},g));function
+s=a[1],f=function(d){var
+a=kB(e(function(a){return a[1]},g));function
 b(b){var
-c=[0,bx(B(a,b)),0];return[0,z(a,b),c]}var
-f=ky(ou(t,k,e(function(a){return a[1]},g))),c=s(aM(d[2]),f),h=[0,b(bx(c)),0];return[0,b(c),h]},c=t;break;default:j=1}if(j)return 0;var
-h=E(g,c);return h?f(h[1]):h}function
-e2(a){return e(function(a){return[0,a[1],a[2]]},a)}function
-ea(a){return e(function(a){var
-c=m(b);return[0,a[3],c]},a)}function
-pT(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bF(hy(e2(c),b));return cL(pS(c,b,a))}function
-pU(g,m,k,L,K,t,a){if(typeof
-a==="number")return[0,[0,[0,u]],0];else
+c=[0,bB(C(a,b)),0];return[0,A(a,b),c]}var
+f=kB(oI(s,k,e(function(a){return a[1]},g))),c=u(aO(d[2]),f),h=[0,b(bB(c)),0];return[0,b(c),h]},c=s;break;default:j=1}if(j)return 0;var
+h=F(g,c);return h?f(h[1]):h}function
+e6(a){return e(function(a){return[0,a[1],a[2]]},a)}function
+ed(a){return e(function(a){var
+c=n(b);return[0,a[3],c]},a)}function
+p7(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bI(hL(e6(c),b));return cP(p6(c,b,a))}function
+p8(g,m,k,K,J,u,a){if(typeof
+a==="number")return[0,[0,[0,t]],0];else
 switch(a[0]){case
 0:var
 M=[5,[0,b,b],a[1]],n=M,o=function(a){return[0,a]};break;case
 1:var
-P=[5,[0,b,b],a[1]],n=P,o=function(a){return[1,a]};break;case
+Q=[5,[0,b,b],a[1]],n=Q,o=function(a){return[1,a]};break;case
 5:var
-B=a[1],U=0,V=ar(g,[0,[0,B,B],d]);return[0,x(function(a){return[2,S(g,a)]},V),U];case
+B=a[1],U=0,V=au(g,[0,[0,B,B],d]);return[0,x(function(a){return[2,P(g,a)]},V),U];case
 7:var
-C=a[3],D=a[2],F=a[1];if(!E(k,F))return xz;var
+C=a[3],D=a[2],E=a[1];if(!F(k,E))return xP;var
 I=0;if(i(g,1,D)&&i(g,1,C))var
-W=[5,D,C],n=W,o=function(a){return[7,F,a]};else
-I=1;if(I)return xy;break;case
+W=[5,D,C],n=W,o=function(a){return[7,E,a]};else
+I=1;if(I)return xO;break;case
 8:var
 G=i(g,1,a[2]),X=0;if(G)var
-Y=a[1],Z=1,r=l(function(a){return i(g,Z,a)},Y);else
+Y=a[1],Z=1,q=l(function(a){return i(g,Z,a)},Y);else
 var
-r=G;if(r)var
-_=J(g,b),$=hy(e2(k),t),H=[0,[4,h(az(m),$),_]];else
+q=G;if(q)var
+_=L(g,b),$=hL(e6(k),u),H=[0,[4,h(aB(m),$),_]];else
 var
-H=r;return[0,H,X];default:var
+H=q;return[0,H,X];default:var
 s=0;if(typeof
 a==="number")s=1;else
 switch(a[0]){case
 4:var
-v=a[3],w=a[2],y=i(g,1,[3,v,w]),R=y?i(g,1,[3,[2,w,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],v]):y,j=R;break;case
+v=a[3],w=a[2],y=i(g,1,[3,v,w]),S=y?i(g,1,[3,[2,w,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b]],v]):y,j=S;break;case
 17:var
 A=i(g,1,a[3]);if(A)var
-T=e(function(a){return a[1]},k),j=ov(f(a[2]),T);else
+T=e(function(a){return a[1]},k),j=oJ(f(a[2]),T);else
 var
 j=A;break;case
 6:case
 9:var
 z=i(g,1,a[2]),j=z?i(g,0,a[3]):z;break;default:s=1}if(s)var
 j=1;var
-p=j?pS(k,t,a):j;if(p){var
-Q=[0,p[1],p[2]];return e(function(a){if(a){var
+p=j?p6(k,u,a):j;if(p){var
+R=[0,p[1],p[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
 e=h(m,b[1]);return[0,[5,h(m,c),e]]}var
 d=[0,[3,h(m,c)]]}else
 var
-d=a;return d},Q)}return xx}var
-N=0,O=ar(g,[0,[0,n,n],hx(L,K)]);return[0,x(function(a){return o(S(g,a))},O),N]}function
-pV(a){if(typeof
+d=a;return d},R)}return xN}var
+N=0,O=au(g,[0,[0,n,n],hK(K,J)]);return[0,x(function(a){return o(P(g,a))},O),N]}function
+p9(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-pW(a){return 0===a[0]?2===a[1][0]?0:1:1}function
-xA(k,Z,aR,j,q,A,aQ){var
-a=j[1],_=an(a),C=j[6],t=ku(q,A,j[2]),$=j[3],v=[0,[0,$,$],q],aa=[0,f(t)],L=j[2],w=L?0===L[1][0]?0:1:L,aS=j[5],z=x(function(b){var
+p_(a){return 0===a[0]?2===a[1][0]?0:1:1}function
+xQ(k,Z,aR,j,r,A,aQ){var
+a=j[1],_=ap(a),B=j[6],s=kx(r,A,j[2]),$=j[3],v=[0,[0,$,$],r],aa=[0,f(s)],K=j[2],w=K?0===K[1][0]?0:1:K,aS=j[5],z=x(function(b){var
 c=typeof
-a==="number"?0:bS(a[1]);return oV(b,c)},aS),aU=j[2],aT=0,aV=bO(v,f(t)),aN=kt(a,q,function(a){return f4(z,a)},A,aU,aT),p=e(function(f){var
+a==="number"?0:bV(a[1]);return o9(b,c)},aS),aU=j[2],aT=0,aV=bR(v,f(s)),aN=kw(a,r,function(a){return gb(z,a)},A,aU,aT),p=e(function(f){var
 g=f[2],b=f[1];function
-e(b){return kq(a,b,bp(bs(g,b),aV))}var
-h=b[1],i=bs(af(B,hN(a),g),h),j=kq(a,b[1],i),c=b[1],d=typeof
-a==="number"?1:0,k=b[6],l=b[5],m=d?a?[0,c[1],[0,c[2],0]]:bM(c):d,n=b[4],o=e(b[3]),p=b[2];return[0,e(b[1]),p,o,n,m,l,k,j]},aN);function
+e(b){return kt(a,b,bq(bt(g,b),aV))}var
+h=b[1],i=bt(ah(C,h0(a),g),h),j=kt(a,b[1],i),c=b[1],d=typeof
+a==="number"?1:0,k=b[6],l=b[5],m=d?a?[0,c[1],[0,c[2],0]]:bP(c):d,n=b[4],o=e(b[3]),p=b[2];return[0,e(b[1]),p,o,n,m,l,k,j]},aN);function
 ab(b){var
-c=0,g=j[2],h=kt(a,q,function(b){if(typeof
-a==="number")return f4(z,b);var
-c=f4(z,b);return o7(kv(a),c)},A,g,c),d=d$(b),k=bO(v,f(t));return e(function(e){var
+c=0,g=j[2],h=kw(a,r,function(b){if(typeof
+a==="number")return gb(z,b);var
+c=gb(z,b);return pj(ky(a),c)},A,g,c),d=ec(b),k=bR(v,f(s));return e(function(e){var
 b=e[1][3];if(typeof
-a==="number")return kq(a,b,bp(bs(e[2],b),k));var
-f=bs(e[2],b),g=af(B,f,bs(f,kv(a))),c=a8(kc(kv(a)),g),h=s(c[3],d),i=s(c[2],d),j=[0,s(c[1],d),i,h];return f0(a[1],b,j)},h)}function
-ad(l){return e(function(n){var
-o=m(b),d=n[3],p=d$(l),q=bO(v,f(t));if(typeof
+a==="number")return kt(a,b,bq(bt(e[2],b),k));var
+f=bt(e[2],b),g=ah(C,f,bt(f,ky(a))),c=a_(kf(ky(a)),g),h=u(c[3],d),i=u(c[2],d),j=[0,u(c[1],d),i,h];return f9(a[1],b,j)},h)}function
+ac(l){return e(function(m){var
+o=n(b),d=m[3],p=ec(l),q=bR(v,f(s));if(typeof
 a==="number")var
 i=d;else
 var
-h=a[1],j=ay(bS(h),d),k=e(function(a){return s(a,s(s(m(c(2,b)),q),p))},j),i=g(ao(bS(h),d),k);return[0,i,o]},p)}var
-ae=e(function(a){return a[4]},p),ag=pB(q,A,j[2],0);function
+h=a[1],j=az(bV(h),d),k=e(function(a){return u(a,u(u(n(c(2,b)),q),p))},j),i=g(aq(bV(h),d),k);return[0,i,o]},p)}var
+ae=e(function(a){return a[4]},p),af=pP(r,A,j[2],0);function
 aW(d,c){if(typeof
 c!=="number")switch(c[0]){case
 15:var
-q=c[1],r=f(t),y=bO(v,f(t)),s=function(a){return f4(z,a)},i=E(p,q);if(i){var
-j=E(ag,q);if(j){var
-b=j[1],n=i[1],e=b[1],k=pK(b,d),l=k[2],m=k[1];if(pI(a,e)){var
-h=pH(n,e,m,l),u=h?[0,h[1],0]:h;return u}if(pJ(e))return 0;var
-w=g([0,m,[0,l,0]],pN(a,s,r,b)),x=g(cL(pM(a,s,y,r,b)),w);return g(n[3],x)}var
+q=c[1],r=f(s),y=bR(v,f(s)),t=function(a){return gb(z,a)},i=F(p,q);if(i){var
+j=F(af,q);if(j){var
+b=j[1],n=i[1],e=b[1],k=pY(b,d),l=k[2],m=k[1];if(pW(a,e)){var
+h=pV(n,e,m,l),u=h?[0,h[1],0]:h;return u}if(pX(e))return 0;var
+w=g([0,m,[0,l,0]],p1(a,t,r,b)),x=g(cP(p0(a,t,y,r,b)),w);return g(n[3],x)}var
 o=j}else
 var
 o=i;return o;case
 16:var
-A=ad(d);return pD(t,ab(d),A,ae)}return pT(p,d,c)}var
-ah=y(function(a){return a[7]},p),ai=j[7],ak=ai?e(function(a){return[0,a[8],a[2]]},p):ai,aX=bF(ak),aY=g(ah,g(dr(aW,w,q,aa,C),aX)),aZ=g(bF(ea(p)),aY),al=g(bF(e2(p)),aZ),am=db(al),ap=da(am),o=cP(ap);function
-a1(g,c){if(typeof
+A=ac(d);return pR(s,ab(d),A,ae)}return p7(p,d,c)}var
+ai=y(function(a){return a[7]},p),aj=j[7],ak=aj?e(function(a){return[0,a[8],a[2]]},p):aj,aX=bI(ak),aY=g(ai,g(du(aW,w,r,aa,B),aX)),aZ=g(bI(ed(p)),aY),al=g(bI(e6(p)),aZ),am=dd(al),an=dc(am),o=cS(an);function
+a0(g,c){if(typeof
 c!=="number")switch(c[0]){case
 15:var
-M=c[1],Y=c[4],Z=c[3],$=c[2],N=f(t),aa=bO(v,f(t)),O=function(a){return f4(z,a)},n=E(p,M),X=0;if(n){var
-r=E(ag,M);if(r){var
-F=i(k,1,Y);if(F)var
-G=i(k,0,$),s=G?i(k,0,Z):G;else
+M=c[1],Y=c[4],Z=c[3],$=c[2],N=f(s),aa=bR(v,f(s)),O=function(a){return gb(z,a)},n=F(p,M),X=0;if(n){var
+q=F(af,M);if(q){var
+E=i(k,1,Y);if(E)var
+G=i(k,0,$),t=G?i(k,0,Z):G;else
 var
-s=F;if(s){var
-d=r[1],H=n[1],m=d[1],B=pK(d,g),C=B[2],D=B[1];if(pI(a,m))var
-Q=pH(H,m,D,C),u=x(function(a){return[3,h(o,a)]},Q);else
-if(pJ(m))var
+t=E;if(t){var
+d=q[1],H=n[1],m=d[1],B=pY(d,g),C=B[2],D=B[1];if(pW(a,m))var
+Q=pV(H,m,D,C),u=x(function(a){return[3,h(o,a)]},Q);else
+if(pX(m))var
 u=0;else
 var
-R=e(o,pN(a,O,N,d)),T=h(o,C),U=h(o,D),S=0,V=pM(a,O,aa,N,d),W=e(function(a){return e(o,a)},V),u=[0,[11,e(o,H[3]),W,U,T,S,R]];var
+R=e(o,p1(a,O,N,d)),T=h(o,C),U=h(o,D),S=0,V=p0(a,O,aa,N,d),W=e(function(a){return e(o,a)},V),u=[0,[11,e(o,H[3]),W,U,T,S,R]];var
 y=u}else
 var
-y=s}else
+y=t}else
 var
-y=r;var
+y=q;var
 I=y}else
 var
 I=n;return[0,I,X];case
 16:var
-A=c[3],ac=j[2];if(typeof
+A=c[3],ad=j[2];if(typeof
 a==="number")var
 P=1;else
 var
-K=i(k,1,A),L=K?cw(k,A):K,P=L?l(pW,ac):L;if(P){var
-af=c[2],ah=c[1],ai=typeof
-a==="number"?[0,J(k,b)]:h(cv(k),A),aj=ad(g),ak=ab(g),al=typeof
-a==="number"?xk:xl,am=typeof
-a==="number"?an(a):bS(a[1]);return pE(k,o,_,am,al,w,t,q,ak,aj,ae,ai,ah,af)}return xB}return pU(k,o,p,w,q,g,c)}var
-aq=l(function(a){var
-b=m(d);return a0(r(h(o,a),ap,b),a)},al),as=aq?aj(pV,C):aq;if(as){var
-at=j[4];if(typeof
+J=i(k,1,A),K=J?cA(k,A):J,P=K?l(p_,ad):K;if(P){var
+ag=c[2],ah=c[1],ai=typeof
+a==="number"?[0,L(k,b)]:h(cz(k),A),aj=ac(g),ak=ab(g),al=typeof
+a==="number"?xA:xB,am=typeof
+a==="number"?ap(a):bV(a[1]);return pS(k,o,_,am,al,w,s,r,ak,aj,ae,ai,ah,ag)}return xR}return p8(k,o,p,w,r,g,c)}var
+ao=l(function(a){var
+b=n(d);return a2(q(h(o,a),an,b),a)},al),ar=ao?ag(p9,B):ao;if(ar){var
+as=j[4];if(typeof
 a==="number")var
-au=a?ko(0,eS(at)):1;else
+at=a?kr(0,eW(as)):1;else
 var
-aO=eS(at),au=ko(a[1],aO);var
-M=au}else
+aO=eW(as),at=kr(a[1],aO);var
+M=at}else
 var
-M=as;if(M){var
+M=ar;if(M){var
 W=j[1];if(typeof
 W==="number")var
 D=j[5]?0:1;else
@@ -5816,44 +6002,44 @@ if(2<=W[1])var
 D=0;else{var
 H=j[5],V=0;if(H){var
 X=i(k,1,j[3]);if(X)var
-aP=hF(H[1]),D=l(function(a){var
-b=cw(k,a[1]);return b?cw(k,a[2]):b},aP);else{var
+aP=hS(H[1]),D=l(function(a){var
+b=cA(k,a[1]);return b?cA(k,a[2]):b},aP);else{var
 Y=X;V=1}}else{var
 Y=H;V=1}if(V)var
 D=Y}var
 N=D}else
 var
 N=M;if(N)var
-a2=j[2],O=l(function(a){var
-b=0===a[0]?0:1;return cI(b,w)},a2);else
+a1=j[2],O=l(function(a){var
+b=0===a[0]?0:1;return cM(b,w)},a1);else
 var
 O=N;if(O){var
-av=I(j[7]);if(av)var
-F=av;else
+av=J(j[7]);if(av)var
+E=av;else
 var
-aL=o$(k,a,j[5]),F=aL?l(pW,j[2]):aL}else
+aL=pn(k,a,j[5]),E=aL?l(p_,j[2]):aL}else
 var
-F=O;if(F){var
-a3=g(t,[0,v,0]),P=ac(e(function(a){return ar(k,a)},a3));if(P){var
-a4=y(function(a){return fX(w,q,a)},C),Q=ac(e(function(a){return hz(k,a)},a4));if(Q){var
-u=eS(j[4]),a5=typeof
-a==="number"?a?[0,u[1],[0,u[2],0]]:[0,u[1],[0,u[2],[0,u[3],0]]]:pv(a[1],u),R=ac(e(function(a){return ar(k,[0,a,q])},a5));if(R){var
+E=O;if(E){var
+a3=g(s,[0,v,0]),P=ad(e(function(a){return au(k,a)},a3));if(P){var
+a4=y(function(a){return f6(w,r,a)},B),Q=ad(e(function(a){return hM(k,a)},a4));if(Q){var
+t=eW(j[4]),a5=typeof
+a==="number"?a?[0,t[1],[0,t[2],0]]:[0,t[1],[0,t[2],[0,t[3],0]]]:pJ(a[1],t),R=ad(e(function(a){return au(k,[0,a,r])},a5));if(R){var
 aw=R[1],ax=j[5];if(ax)var
-a6=oX(ax[1]),G=ac(e(function(a){return oZ(k,a)},a6));else
+a6=o$(ax[1]),G=ad(e(function(a){return pb(k,a)},a6));else
 var
-G=xC;if(G){var
-aA=G[1],K=j[5],a7=K?oW(K[1]):K,S=ac(e(cv(k),a7));if(S){var
-T=ac(dr(a1,w,q,aa,C));if(T){var
-aB=T[1];if(j[7])var
-a9=Z[2],a_=Z[1],U=jV(aR,aB,[8,h(az(o),ak),a_,a9]);else
+G=xS;if(G){var
+ay=G[1],I=j[5],a7=I?o_(I[1]):I,S=ad(e(cz(k),a7));if(S){var
+T=ad(du(a0,w,r,aa,B));if(T){var
+aA=T[1];if(j[7])var
+a8=Z[2],a9=Z[1],U=jY(aR,aA,[8,h(aB(o),ak),a9,a8]);else
 var
-U=aB;var
-aC=n(f(g(aw,aA)),_);if(aC){var
-a$=jL(U),ba=g(aw,aA),aM=0,bb=j[4];if(typeof
+U=aA;var
+aC=m(f(g(aw,ay)),_);if(aC){var
+a$=jO(U),ba=g(aw,ay),aM=0,bb=j[4];if(typeof
 a==="number"&&!a){var
-aD=function(a){return of(k,bb,q,a)};aM=1}if(!aM)var
+aD=function(a){return ot(k,bb,r,a)};aM=1}if(!aM)var
 aD=function(a){return 0};var
-bc=g(Q[1],S[1]),bd=g(P[1],bc),be=e(o,ah),bf=ea(p),bg=h(az(o),bf),bh=e2(p);return fd(jK(k,am,h(az(o),bh),bg,be,bd,U,aD),ba,a$,aQ)}var
+bc=g(Q[1],S[1]),bd=g(P[1],bc),be=e(o,ai),bf=ed(p),bg=h(aB(o),bf),bh=e6(p);return fi(jN(k,am,h(aB(o),bh),bg,be,bd,U,aD),ba,a$,aQ)}var
 aE=aC}else
 var
 aE=T;var
@@ -5874,16 +6060,16 @@ var
 aJ=P;var
 aK=aJ}else
 var
-aK=F;return aK}function
-xD(b){if(0===b[0])return[0,oq(b[1])];var
-a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bP(a[4]),g=bP(a[3]),h=bP(a[2]);return[1,[0,bP(a[1]),h,g,f,e,d,c]]}function
-pX(e,d,c){var
+aK=E;return aK}function
+xT(b){if(0===b[0])return[0,oE(b[1])];var
+a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bS(a[4]),g=bS(a[3]),h=bS(a[2]);return[1,[0,bS(a[1]),h,g,f,e,d,c]]}function
+p$(e,d,c){var
 a=d;for(;;){if(a){var
-b=a[1];if(tI(b[1],c))return b[2];var
+b=a[1];if(tW(b[1],c))return b[2];var
 a=a[2];continue}return e}}function
-kz(a,c,b){var
-d=V(e(at,a[2]),b);return g(V(a[1],c),d)}function
-b$(c){var
+kC(a,c,b){var
+d=N(e(as,a[2]),b);return g(N(a[1],c),d)}function
+cc(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -5892,102 +6078,102 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=b$(a[2]);return g(b$(a[1]),e)}}function
-bT(e,a,c){switch(a[0]){case
+e=cc(a[2]);return g(cc(a[1]),e)}}function
+bW(e,a,c){switch(a[0]){case
 0:var
-o=a[1];return bO([0,[0,o,o],d],c);case
+o=a[1];return bR([0,[0,o,o],d],c);case
 1:var
-q=a[1];return pX(m(d),e,q);case
-2:return bx(bT(e,a[1],c));case
+q=a[1];return p$(n(d),e,q);case
+2:return bB(bW(e,a[1],c));case
 3:var
-i=a[2],g=a[1],h=B;break;case
+i=a[2],g=a[1],h=C;break;case
 4:var
-i=a[2],g=a[1],h=z;break;case
+i=a[2],g=a[1],h=A;break;case
 5:var
-i=a[2],g=a[1],h=s;break;case
+i=a[2],g=a[1],h=u;break;case
 6:var
-i=a[2],g=a[1],h=ai;break;case
+i=a[2],g=a[1],h=aj;break;case
 7:var
-j=fw(a[2]),k=bT(e,a[1],c);if(j){if(j[1]){var
-l=W(k),p=function(a){return s(a,l)},n=gL(aT(mp(j)),p,l);return mo(j)?n:s(n,k)}return k}return m(b);default:return aM(bT(e,a[1],c))}var
-r=bT(e,i,N(c,f(b$(g))));return h(bT(e,g,c),r)}function
-dv(c,h,b){var
+j=fB(a[2]),k=bW(e,a[1],c);if(j){if(j[1]){var
+l=X(k),p=function(a){return u(a,l)},m=gT(aU(ms(j)),p,l);return mr(j)?m:u(m,k)}return k}return n(b);default:return aO(bW(e,a[1],c))}var
+r=bW(e,i,O(c,f(cc(g))));return h(bW(e,g,c),r)}function
+dy(c,h,b){var
 a=h;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=N(b,f(b$(e))),l=dv(c,a[2],k),m=g(dv(c,e,b),l);return[0,bT(c,a,b),m];case
+e=a[1],k=O(b,f(cc(e))),l=dy(c,a[2],k),m=g(dy(c,e,b),l);return[0,bW(c,a,b),m];case
 8:var
-n=dv(c,a[1],b);return[0,bT(c,a,b),n];case
+n=dy(c,a[1],b);return[0,bW(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],i=N(b,f(b$(d))),j=dv(c,a[2],i);return g(dv(c,d,b),j)}}function
-pY(i,h,g){var
+d=a[1],i=O(b,f(cc(d))),j=dy(c,a[2],i);return g(dy(c,d,b),j)}}function
+qa(i,h,g){var
 b=i,a=h,c=g;for(;;){if(a){var
-d=a[1],e=d[2],j=N(c,f(b$(e))),k=a[2],l=bT(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
-kA(c,a,b){if(a){var
-e=a[1],d=e[2],h=N(b,f(b$(d))),i=a[2],j=bT(c,d,b),k=kA([0,[0,e[1],j],c],i,h);return g(dv(c,d,b),k)}return a}function
-f5(a){return y(b$,a)}function
-pZ(c,a,b){if(a)var
-d=a[1],g=N(b,f(b$(d))),h=pZ(c,a[2],g),e=[0,bT(c,d,b),h];else
+d=a[1],e=d[2],j=O(c,f(cc(e))),k=a[2],l=bW(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
+kD(c,a,b){if(a){var
+e=a[1],d=e[2],h=O(b,f(cc(d))),i=a[2],j=bW(c,d,b),k=kD([0,[0,e[1],j],c],i,h);return g(dy(c,d,b),k)}return a}function
+gc(a){return y(cc,a)}function
+qb(c,a,b){if(a)var
+d=a[1],g=O(b,f(cc(d))),h=qb(c,a[2],g),e=[0,bW(c,d,b),h];else
 var
 e=a;return e}function
-p0(c,a,b){if(a){var
-d=a[1],e=N(b,f(b$(d))),h=p0(c,a[2],e);return g(dv(c,d,b),h)}return a}function
-hP(a){return 0===a[0]?f5(a[1]):b$(a[1])}function
-kB(c,b,a){if(b){var
-d=b[1],j=N(a,f(hP(d))),k=kB(c,b[2],j);if(0===d[0])var
-h=p0(c,d[1],a);else
+qc(c,a,b){if(a){var
+d=a[1],e=O(b,f(cc(d))),h=qc(c,a[2],e);return g(dy(c,d,b),h)}return a}function
+h2(a){return 0===a[0]?gc(a[1]):cc(a[1])}function
+kE(c,b,a){if(b){var
+d=b[1],j=O(a,f(h2(d))),k=kE(c,b[2],j);if(0===d[0])var
+h=qc(c,d[1],a);else
 var
-e=d[1],i=dv(c,e,a),h=[0,bT(c,e,a),i];return g(h,k)}return b}function
-hQ(c){var
+e=d[1],i=dy(c,e,a),h=[0,bW(c,e,a),i];return g(h,k)}return b}function
+h3(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=b3(hQ,a)}return[0,b]}function
-kC(c){var
+b=b6(h3,a)}return[0,b]}function
+kF(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=kC(a[2]);return s(kC(a[1]),d);case
-9:return a[1];default:return W(b)}}}function
-kD(n,h,a,g){if(a){var
-c=a[1],x=N(g,f(hP(c))),y=kD(n,h,a[2],x);if(0===c[0])var
-k=pZ(h,c[1],g),o=[0,k,m(b),k,0,0,0,0,0];else
+d=kF(a[2]);return u(kF(a[1]),d);case
+9:return a[1];default:return X(b)}}}function
+kG(m,h,a,g){if(a){var
+c=a[1],x=O(g,f(h2(c))),y=kG(m,h,a[2],x);if(0===c[0])var
+k=qb(h,c[1],g),o=[0,k,n(b),k,0,0,0,0,0];else
 var
-l=bT(h,c[1],g),q=hQ(l),i=bg(aB(0,n),q),d=hQ(i[2]),j=e(hQ,i[1]),r=0,s=0,t=0,u=0,v=[0,l],w=e(function(a){return a0(a,d)?m(b):ai(a,d)},j),o=[0,j,kC(d),w,v,u,t,s,r];var
+l=bW(h,c[1],g),q=h3(l),i=bh(aA(0,m),q),d=h3(i[2]),j=e(h3,i[1]),r=0,s=0,t=0,u=0,v=[0,l],w=e(function(a){return a2(a,d)?n(b):aj(a,d)},j),o=[0,j,kF(d),w,v,u,t,s,r];var
 p=[0,o,y]}else
 var
 p=a;return p}function
-kE(a){return e(function(a){return[0,a[2],d]},a)}function
-kF(a){var
-b=y(hP,a[4]),c=g(f5(e(aJ,a[3])),b);return g(kE(a[2]),c)}function
-hR(a){var
-b=cs(0,kE(a[2])),c=aB(0,f(a[1]));return kz(a,e(function(a){return[0,[0,a]]},c),b)}function
-kG(b,d){var
+kH(a){return e(function(a){return[0,a[2],d]},a)}function
+kI(a){var
+b=y(h2,a[4]),c=g(gc(e(aK,a[3])),b);return g(kH(a[2]),c)}function
+h4(a){var
+b=cw(0,kH(a[2])),c=aA(0,f(a[1]));return kC(a,e(function(a){return[0,[0,a]]},c),b)}function
+kJ(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return aj(function(a){return aI(e,a)},b);case
+e=a[1];return ag(function(a){return aJ(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=kG(b,a[1]);if(c){var
+c=kJ(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-p1(d){var
+qd(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=I(aj(function(b){return function(a){return tI(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=J(ag(function(b){return function(a){return tW(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-p2(a){var
-u=e(at,a[2]),d=g(a[1],u),h=f(a[1]),o=ae(xG,h),p=o?ae(h,xH):o,q=p?ae(h,f(a[4])):p,r=q?ae(f(a[4]),xI):q,s=r?p1(d):r;if(s){var
+qe(a){var
+u=e(as,a[2]),d=g(a[1],u),h=f(a[1]),o=ae(xW,h),p=o?ae(h,xX):o,q=p?ae(h,f(a[4])):p,r=q?ae(f(a[4]),xY):q,s=r?qd(d):r;if(s){var
 c=d,b=a[3];for(;;){if(b){var
-j=b[1],k=j[1],m=I(aj(function(b){return function(a){return aI(b,a)}}(k),c)),n=m?kG(c,j[2]):m;if(n){var
+j=b[1],k=j[1],m=J(ag(function(b){return function(a){return aJ(b,a)}}(k),c)),n=m?kJ(c,j[2]):m;if(n){var
 c=[0,k,c],b=b[2];continue}var
 t=n}else
 var
@@ -5996,11 +6182,11 @@ i=t;break}}else
 var
 i=s;if(i){var
 v=a[4];return l(function(b){var
-c=0===b[0]?b[1]:[0,b[1],0],f=g(e(at,a[3]),d);return l(function(a){return kG(f,a)},c)},v)}return i}function
-eb(f,e,g){var
-h=g[1],a=b3(function(a){return eb(f,e,a)},h);switch(a[0]){case
-0:return r(a[1],f,[0,d,b]);case
-1:return r(a[1],e,[0,d,b]);case
+c=0===b[0]?b[1]:[0,b[1],0],f=g(e(as,a[3]),d);return l(function(a){return kJ(f,a)},c)},v)}return i}function
+ee(f,e,g){var
+h=g[1],a=b6(function(a){return ee(f,e,a)},h);switch(a[0]){case
+0:return q(a[1],f,[0,d,b]);case
+1:return q(a[1],e,[0,d,b]);case
 2:return[0,a[1],b];case
 3:return[2,a[1],a[2]];case
 4:return[3,a[1],a[2]];case
@@ -6010,7 +6196,7 @@ h=g[1],a=b3(function(a){return eb(f,e,a)},h);switch(a[0]){case
 8:var
 c=a[1];return[4,c,c];case
 9:return[6,a[1]];default:return[0,d,b]}}function
-kH(d){var
+kK(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 10:return 0;case
@@ -6021,105 +6207,105 @@ b=a[1];continue;case
 0:case
 1:case
 2:return 1;default:var
-c=kH(a[1]);if(c){var
+c=kK(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-ca(g,f,e){var
+cd(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=dm(g,b[1],a[1]);if(c){var
+c=dq(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-xJ(a){var
+xZ(a){var
 b=a[4],d=0;if(typeof
 b!=="number"&&0===b[0]){var
 c=[0,b[1],0];d=1}if(!d)var
 c=0;var
 e=g(a[3],c);return g(a[1],e)}function
-hS(a){return f(a[1])}function
-p3(a){var
-b=f(f5(e(aJ,a[3])));return N(f(a[2]),b)}function
-p4(a){var
-b=f(a[2]),c=a[3];return pY(hR(a),c,b)}function
-p5(a){var
-b=p3(a),c=a[4],d=p4(a);return kD(hS(a),d,c,b)}function
-p6(a,b){var
-c=y(hP,a[4]),d=g(f5(e(aJ,a[3])),c);return g(b,e(function(a){return a[1][1]},d))}function
-p7(b,a){return l(function(a){if(0===a[0]){var
-c=hS(b);return n(f(a[1]),c)}return 1},a)}function
-kI(f,e){function
-a(a){return r(a,e,[0,d,b])}var
+h5(a){return f(a[1])}function
+qf(a){var
+b=f(gc(e(aK,a[3])));return O(f(a[2]),b)}function
+qg(a){var
+b=f(a[2]),c=a[3];return qa(h4(a),c,b)}function
+qh(a){var
+b=qf(a),c=a[4],d=qg(a);return kG(h5(a),d,c,b)}function
+qi(a,b){var
+c=y(h2,a[4]),d=g(gc(e(aK,a[3])),c);return g(b,e(function(a){return a[1][1]},d))}function
+qj(b,a){return l(function(a){if(0===a[0]){var
+c=h5(b);return m(f(a[1]),c)}return 1},a)}function
+kL(f,e){function
+a(a){return q(a,e,[0,d,b])}var
 c=[0,d,b];switch(f){case
 0:var
-g=a(xL);return[0,a(0),g,c];case
+g=a(x1);return[0,a(0),g,c];case
 1:var
-h=a(xM),i=a(xN);return[0,a(0),i,h];default:return[0,c,c,c]}}function
-kJ(f,e){function
-a(a){return r(a,e,[0,d,b])}var
+h=a(x2),i=a(x3);return[0,a(0),i,h];default:return[0,c,c,c]}}function
+kM(f,e){function
+a(a){return q(a,e,[0,d,b])}var
 c=[0,d,b];switch(f){case
-0:return[0,c,c,a(xO)];case
+0:return[0,c,c,a(x4)];case
 1:var
-g=a(xP),h=a(xQ);return[0,a(xR),h,g];default:var
-i=a(xS),j=a(xT);return[0,a(0),j,i]}}function
-p8(t,s,k,j,r,d){var
-c=bk(k,j,r,d);if(0===d[0])var
-e=bG(d[1],c);else
+g=a(x5),h=a(x6);return[0,a(x7),h,g];default:var
+i=a(x8),j=a(x9);return[0,a(0),j,i]}}function
+qk(t,s,k,j,r,d){var
+c=bl(k,j,r,d);if(0===d[0])var
+e=bJ(d[1],c);else
 var
-a=d[1],f=fT(a,c),g=fU(a,c),h=fV(a,c),i=d2(a,c),l=P([3,[4,h,g],[4,i,f]],fS(a)),m=P([2,[4,h,f],[4,i,g]],eT(a)),n=M(function(b,a){return[2,b,a]},m,l),o=P(a[5],n),p=hu(a,c),q=P(hv(a,c),p),e=M(function(b,a){return[3,b,a]},q,o);return kd(t,e,P([5,[0,b,b],s],cu(d_(k,j,d9(d)),e)))}function
-p9(c,b,a){return b?fW(c,b[1],a):a?0:1}function
-p_(d,b,i,a,c,o,h,m,g){var
-p=an(b),j=n(f(c),p),k=j?p9(d,a,h):j,l=k?p9(d,a,g):k;if(l){var
-q=e(function(c){return p8(b,i,a,g,m,c)},c),r=e(function(c){return p8(b,i,a,h,o,c)},c);return kx(d,an(b),r,q)}return l}function
-p$(c,j,d,b,a){var
-e=aF(d,j),f=e?bo(b,a):e;if(f)var
-k=cS(c,a)[2],h=[0,cS(c,b)[1],k],l=[0,cS(c,dM(a,b)),0],i=[0,[0,h,h,g(ab(u,d),l)]];else
+a=d[1],f=f2(a,c),g=f3(a,c),h=f4(a,c),i=d5(a,c),l=S([3,[4,h,g],[4,i,f]],f1(a)),m=S([2,[4,h,f],[4,i,g]],eX(a)),n=M(function(b,a){return[2,b,a]},m,l),o=S(a[5],n),p=hH(a,c),q=S(hI(a,c),p),e=M(function(b,a){return[3,b,a]},q,o);return kg(t,e,S([5,[0,b,b],s],cy(eb(k,j,ea(d)),e)))}function
+ql(c,b,a){return b?f5(c,b[1],a):a?0:1}function
+qm(d,b,i,a,c,o,h,n,g){var
+p=ap(b),j=m(f(c),p),k=j?ql(d,a,h):j,l=k?ql(d,a,g):k;if(l){var
+q=e(function(c){return qk(b,i,a,g,n,c)},c),r=e(function(c){return qk(b,i,a,h,o,c)},c);return kA(d,ap(b),r,q)}return l}function
+qn(c,j,d,b,a){var
+e=aF(d,j),f=e?bp(b,a):e;if(f)var
+k=cV(c,a)[2],h=[0,cV(c,b)[1],k],l=[0,cV(c,dQ(a,b)),0],i=[0,[0,h,h,g($(t,d),l)]];else
 var
 i=f;return i}function
-kK(a){if(a){var
+kN(a){if(a){var
 b=a[1];if(b)var
-c=kK(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=kN(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return xW}function
-qa(c,b,a){if(b){if(a){var
-d=b[1],f=qa(c,b[2],a[2]),g=a[1],h=function(b,a){return A(t(c,d,b),a)},i=function(a){return a};return aU(function(a){return t(c,d,a)},i,h,g,f)}var
+d=b;return d}return ya}function
+qo(c,b,a){if(b){if(a){var
+d=b[1],f=qo(c,b[2],a[2]),g=a[1],h=function(b,a){return z(s(c,d,b),a)},i=function(a){return a};return aL(function(a){return s(c,d,a)},i,h,g,f)}var
 e=a}else
 var
 e=b;return e}function
-qb(c,b,a){if(b){if(a){var
-d=qb(c,b[2],a[2]);return A(t(c,b[1],a[1]),d)}return u}return u}function
-hT(a){return aq(function(d,a){var
-e=c(2,b);return G(cj(bL(d),e),a)},d,a)}function
-hU(a,i,h){var
+qp(c,b,a){if(b){if(a){var
+d=qp(c,b[2],a[2]);return z(s(c,b[1],a[1]),d)}return t}return t}function
+h6(a){return am(function(d,a){var
+e=c(2,b);return G(cm(bO(d),e),a)},d,a)}function
+h7(a,i,h){var
 d=f(i);function
-t(g,e,f){var
-d=[0,b,c(2,b)];return[0,ad(cS(a,a_(dL(e,f),d)))]}var
-j=kK(e(function(b){return eI(a,t,b)},i));if(j){var
-v=j[1],w=function(b,c,e){return p$(a,d,b,c,e)},k=kK(e(function(b){return eI(a,w,b)},i));if(k){var
-x=function(b){return cS(a,b)},o=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),A=e(function(b){return qb(a,b,e(function(a){return a[2]},v))},o),B=V(aB(0,d),o),E=e(function(c){var
-i=qa(a,c[2],z),j=c[1],d=[0,J(a,b),0],e=g(ab(u,j),d);function
-f(b,a){return C(b,au(a))}function
-h(a){return $(au(a))}return aU(function(a){return a},h,f,e,i)},B),p=n(f(h),d),q=p?l(function(a){return n(f(a),d)},h):p;if(q)var
-G=c(2,b),H=cj(cM(a),G),I=hT(A),m=F(D(c(2,c(2,b)),I),H);else
+u(g,e,f){var
+d=[0,b,c(2,b)];return[0,_(cV(a,bb(dP(e,f),d)))]}var
+j=kN(e(function(b){return eJ(a,u,b)},i));if(j){var
+v=j[1],w=function(b,c,e){return qn(a,d,b,c,e)},k=kN(e(function(b){return eJ(a,w,b)},i));if(k){var
+x=function(b){return cV(a,b)},o=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),A=e(function(b){return qp(a,b,e(function(a){return a[2]},v))},o),C=N(aA(0,d),o),F=e(function(c){var
+i=qo(a,c[2],z),j=c[1],d=[0,L(a,b),0],e=g($(t,j),d);function
+f(b,a){return B(b,an(a))}function
+h(a){return Q(an(a))}return aL(function(a){return a},h,f,e,i)},C),p=m(f(h),d),q=p?l(function(a){return m(f(a),d)},h):p;if(q)var
+G=c(2,b),H=cm(cQ(a),G),I=h6(A),n=D(E(c(2,c(2,b)),I),H);else
 var
-m=q;if(m){var
-K=c(2,b),L=cj(cM(a),K),M=hT(cL(E));return F(D(c(2,c(2,b)),M),L)}var
-r=m}else
+n=q;if(n){var
+J=c(2,b),K=cm(cQ(a),J),M=h6(cP(F));return D(E(c(2,c(2,b)),M),K)}var
+r=n}else
 var
 r=k;var
 s=r}else
 var
 s=j;return s}function
-e3(a){return l(function(a){return I(dQ(a))},a)}function
-a2(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-bb(a){return[0,a[1],a[2]]}function
-hV(b,a){var
-d=f(a),c=n(f(b),d);if(c){var
-e=V(b,a);return l(function(a){return bo(a[1],a[2])},e)}return c}function
-kL(c,a,b){var
-d=V(a,b),g=V(aB(c,f(a)),d);return e(function(a){return[1,a[1],a[2][1],a[2][2]]},g)}function
-e4(e,k,j,h){var
+e7(a){return l(function(a){return J(dU(a))},a)}function
+a3(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+bc(a){return[0,a[1],a[2]]}function
+h8(b,a){var
+d=f(a),c=m(f(b),d);if(c){var
+e=N(b,a);return l(function(a){return bp(a[1],a[2])},e)}return c}function
+kO(c,a,b){var
+d=N(a,b),g=N(aA(c,f(a)),d);return e(function(a){return[1,a[1],a[2][1],a[2][2]]},g)}function
+e8(e,k,j,h){var
 c=k,b=j,a=h;for(;;){if(c)if(b)if(a){var
-f=a[1],l=i(e,1,[3,bb(c[1]),f]),g=l||i(e,1,[3,f,bb(b[1])]);if(!g){var
+f=a[1],l=i(e,1,[3,bc(c[1]),f]),g=l||i(e,1,[3,f,bc(b[1])]);if(!g){var
 c=c[2],b=b[2],a=a[2];continue}var
 d=g}else
 var
@@ -6128,25 +6314,25 @@ var
 d=b;else
 var
 d=c;return d}}function
-kM(b,e,c){var
-a=eI(b,function(a,c,d){return p$(b,e,a,c,d)},c);return a?K(d,a[1][2][1]):a}function
-kN(f,e,b,a){var
+kP(b,e,c){var
+a=eJ(b,function(a,c,d){return qn(b,e,a,c,d)},c);return a?I(d,a[1][2][1]):a}function
+kQ(f,e,b,a){var
 c=a[1],d=b[1],g=c[2],h=a[2],i=d[2],j=b[2],k=[0,d[1],[0,c[1],0]];return l(function(a){var
 b=[0,i,[0,g,0]];return l(function(b){var
 c=[0,j,[0,h,0]];return l(function(c){var
-d=bb(c),g=bb(b);return cV(f,e,[0,bb(a),g,d])},c)},b)},k)}function
-kO(a){switch(a[0]){case
+d=bc(c),g=bc(b);return cY(f,e,[0,bc(a),g,d])},c)},b)},k)}function
+kR(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=g(a2(a[3]),c),e=g(a2(a[2]),d);return g(a2(a[1]),e);case
+c=[0,a[4],0],d=g(a3(a[3]),c),e=g(a3(a[2]),d);return g(a3(a[1]),e);case
 1:var
-b=a[3],f=b?a2(b[1]):b,h=g(a2(a[2]),f);return g(a2(a[1]),h);default:return a2(a[1])}}function
-qc(a){return 1===a[0]?0:1}function
-f6(b,a){var
-c=a_(a,a);return bo(a_(b,b),c)?a:b}function
-f7(b,a,e,d){var
-c=d5(b,a,bb(e));return c?d5(b,a,bb(d)):c}function
-qd(f,e,c,a){switch(e[0]){case
-0:if(c){if(c[2])return 0;if(a)return a[2]?0:f7(f,e[1],c[1],a[1]);var
+b=a[3],f=b?a3(b[1]):b,h=g(a3(a[2]),f);return g(a3(a[1]),h);default:return a3(a[1])}}function
+qq(a){return 1===a[0]?0:1}function
+gd(b,a){var
+c=bb(a,a);return bp(bb(b,b),c)?a:b}function
+ge(b,a,e,d){var
+c=d8(b,a,bc(e));return c?d8(b,a,bc(d)):c}function
+qr(f,e,c,a){switch(e[0]){case
+0:if(c){if(c[2])return 0;if(a)return a[2]?0:ge(f,e[1],c[1],a[1]);var
 x=a}else
 var
 x=c;return x;case
@@ -6155,7 +6341,7 @@ i=c[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;if(a){var
 k=a[2];if(k){var
 l=k[2];if(l){if(l[2])return 0;var
-y=f7(f,e[1],c[1],a[1]),z=y?f7(f,e[2],i[1],k[1]):y;if(z)return f7(f,e[3],j[1],l[1]);var
+y=ge(f,e[1],c[1],a[1]),z=y?ge(f,e[2],i[1],k[1]):y;if(z)return ge(f,e[3],j[1],l[1]);var
 A=z}else
 var
 A=l;var
@@ -6178,7 +6364,7 @@ m=c[2];if(m){var
 n=m[2];if(n){if(n[2])return 0;if(a){var
 o=a[2];if(o){var
 p=o[2];if(p){if(p[2])return 0;var
-P=[0,bb(f6(n[1],p[1])),0],Q=[0,bb(f6(m[1],o[1])),P];return fW(f,e,[0,bb(f6(c[1],a[1])),Q])}var
+P=[0,bc(gd(n[1],p[1])),0],Q=[0,bc(gd(m[1],o[1])),P];return f5(f,e,[0,bc(gd(c[1],a[1])),Q])}var
 E=p}else
 var
 E=o;var
@@ -6197,11 +6383,11 @@ q=c[2];if(q){var
 r=q[2];if(r){if(r[2])return 0;if(a){var
 s=a[2];if(s){var
 t=s[2];if(t){if(t[2])return 0;var
-g=t[1],h=r[1],N=0,R=0;if(bo(h,[0,d,b])&&bo([0,d,b],g))var
+g=t[1],h=r[1],N=0,R=0;if(bp(h,[0,d,b])&&bp([0,d,b],g))var
 H=[0,d,b];else
 N=1;if(N)var
-O=a_(g,g),H=bo(a_(h,h),O)?h:g;var
-S=[0,bb(H),R],T=[0,bb(f6(q[1],s[1])),S],I=fW(f,e,[0,bb(f6(c[1],a[1])),T]);if(I)return f7(f,dq(e[2]),h,g);var
+O=bb(g,g),H=bp(bb(h,h),O)?h:g;var
+S=[0,bc(H),R],T=[0,bc(gd(q[1],s[1])),S],I=f5(f,e,[0,bc(gd(c[1],a[1])),T]);if(I)return ge(f,dt(e[2]),h,g);var
 J=I}else
 var
 J=t;var
@@ -6219,79 +6405,79 @@ L=q;var
 M=L}else
 var
 M=c;return M}}function
-qe(a){var
-c=r(x0,a,[0,d,b]),e=r(x1,a,[0,d,b]);return[0,r(0,a,[0,d,b]),e,c]}function
-hW(a){var
-c=r(x2,a,[0,d,b]),e=r(x3,a,[0,d,b]);return[0,[0,r(0,a,[0,d,b]),e],c]}function
-kP(d,c,b,a){var
-e=b9(d,c,b,a);return v(b9(d,c,b,a),e)}var
-cY=c(2,c(2,c(2,c(2,c(2,q(c(2,b)))))));function
-ec(e){var
-a=aC(cY,e);if(a){var
-f=h(gN(c(2,b)),cY);return[0,a[1][2],f]}return[0,d,b]}var
-kQ=[0,[0,d,b],[0,d,b],[0,d,b]];function
-e5(c,a){var
-e=[0,d,b];return aq(function(b,a){return[2,h(c,b),a]},e,a)}function
-f8(b,a){return aq(function(c,a){var
-d=h(b,c);return M(function(b,a){return[2,b,a]},d,a)},kQ,a)}function
-qf(c){var
+qs(a){var
+c=q(ye,a,[0,d,b]),e=q(yf,a,[0,d,b]);return[0,q(0,a,[0,d,b]),e,c]}function
+h9(a){var
+c=q(yg,a,[0,d,b]),e=q(yh,a,[0,d,b]);return[0,[0,q(0,a,[0,d,b]),e],c]}function
+kS(d,c,b,a){var
+e=ca(d,c,b,a);return v(ca(d,c,b,a),e)}var
+c1=c(2,c(2,c(2,c(2,c(2,r(c(2,b)))))));function
+ef(e){var
+a=aD(c1,e);if(a){var
+f=h(gV(c(2,b)),c1);return[0,a[1][2],f]}return[0,d,b]}var
+kT=[0,[0,d,b],[0,d,b],[0,d,b]];function
+e9(c,a){var
+e=[0,d,b];return am(function(b,a){return[2,h(c,b),a]},e,a)}function
+gf(b,a){return am(function(c,a){var
+d=h(b,c);return M(function(b,a){return[2,b,a]},d,a)},kT,a)}function
+qt(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return aF(a[1],dR);case
+1:return aF(a[1],dV);case
 6:var
 a=a[1];continue;default:var
-b=qf(a[1]);if(b){var
+b=qt(a[1]);if(b){var
 a=a[2];continue}return b}}function
-dw(a){return l(qf,a)}function
-kR(d,h,c,f){var
-a=eI(d,function(c,e,f){var
-a=aF(c,N(dR,h)),b=a?bo(e,f):a,g=b?[0,mX(d,c,e,f)]:b;return g},f);if(a){var
-b=a[1],e=ay(dR,b[3]),g=i8(hT(ay(c,e))),i=i8(hT(ao(c,e))),j=R(G(G(g1(ao(dR,b[3])),i),g));return K(b[1][2],j)}return a}function
-hX(b,a,c){if(b)if(a)var
-f=a[1],g=hX(b[2],a[2],c),h=K(b[1],d)?[3,f,c]:[2,f,c],e=[0,h,g];else
+dz(a){return l(qt,a)}function
+kU(d,h,c,f){var
+a=eJ(d,function(c,e,f){var
+a=aF(c,O(dV,h)),b=a?bp(e,f):a,g=b?[0,m0(d,c,e,f)]:b;return g},f);if(a){var
+b=a[1],e=az(dV,b[3]),g=ji(h6(az(c,e))),i=ji(h6(aq(c,e))),j=U(G(G(g_(aq(dV,b[3])),i),g));return I(b[1][2],j)}return a}function
+h_(b,a,c){if(b)if(a)var
+f=a[1],g=h_(b[2],a[2],c),h=I(b[1],d)?[3,f,c]:[2,f,c],e=[0,h,g];else
 var
 e=a;else
 var
 e=b;return e}function
-hY(a){return x(function(a){var
-d=h(gN(c(2,b)),cY);return[0,a[2],d]},a)}function
-cy(b,a){var
-c=gW(a);return[1,N(dR,b),c,a]}function
-ed(a){if(co(a[1],a[2]))return a[1];var
+h$(a){return x(function(a){var
+d=h(gV(c(2,b)),c1);return[0,a[2],d]},a)}function
+cC(b,a){var
+c=g4(a);return[1,O(dV,b),c,a]}function
+eg(a){if(cs(a[1],a[2]))return a[1];var
 d=[0,c(2,b),b];return[5,[2,a[1],a[2]],d]}function
-bJ(a){var
-b=ed(a[3]),c=ed(a[2]);return[0,ed(a[1]),c,b]}function
-qg(a){switch(a[0]){case
+bM(a){var
+b=eg(a[3]),c=eg(a[2]);return[0,eg(a[1]),c,b]}function
+qu(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=ed(b[4]),e=bJ(b[3]),f=bJ(b[2]);return[0,bJ(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=eg(b[4]),e=bM(b[3]),f=bM(b[2]);return[0,bM(b[1]),f,e,d,c];case
 1:var
-g=x(bJ,a[3]),h=bJ(a[2]);return[1,bJ(a[1]),h,g];default:return[2,bJ(a[1])]}}function
-f9(h,g,p,a,Q,o){var
-x=fN(h,g,p,a),y=x?dw(a2(a)):x;if(y){var
-q=E(g[3],Q);if(q){var
+g=x(bM,a[3]),h=bM(a[2]);return[1,bM(a[1]),h,g];default:return[2,bM(a[1])]}}function
+gg(h,g,p,a,Q,o){var
+x=fW(h,g,p,a),y=x?dz(a3(a)):x;if(y){var
+q=F(g[3],Q);if(q){var
 j=q[1];if(typeof
 j!=="number"&&14===j[0]){var
-B=j[2],C=j[1],r=hY(aC(cY,B));if(r){var
-s=r[1],R=cy(x_,s),S=cy(x$,s),t=[0,cy(0,s),S,R],D=i(h,1,B),F=D?i(h,0,C):D;if(F)var
-T=f(g[1]),u=n(f(o),T);else
+B=j[2],C=j[1],r=h$(aD(c1,B));if(r){var
+s=r[1],R=cC(yo,s),T=cC(yp,s),t=[0,cC(0,s),T,R],D=i(h,1,B),E=D?i(h,0,C):D;if(E)var
+U=f(g[1]),u=m(f(o),U);else
 var
-u=F;var
-G=u?l(function(a){return dw(kO(a))},p):u;if(G){var
-U=g[1],H=hX(o,e(function(b){return cW(qg(b),a)},U),C),I=dw(H);if(I){var
-w=V(V(p,H),o),k=function(k){var
+u=E;var
+G=u?l(function(a){return dz(kR(a))},p):u;if(G){var
+V=g[1],H=h_(o,e(function(b){return cZ(qu(b),a)},V),C),I=dz(H);if(I){var
+w=N(N(p,H),o),k=function(k){var
 f=k[1][2],e=k[1][1];switch(e[0]){case
 0:var
-i=e[4],l=P(f,aD(e[1])),m=aQ(e[2],e[3],a),g=M(function(b,a){return[3,b,a]},m,l),n=P([0,c(2,b),b],g);return[0,[3,v(g,g),[4,i,i]],n,[0,b,b]];case
+i=e[4],l=S(f,aE(e[1])),m=aS(e[2],e[3],a),g=M(function(b,a){return[3,b,a]},m,l),n=S([0,c(2,b),b],g);return[0,[3,v(g,g),[4,i,i]],n,[0,b,b]];case
 1:var
-h=aQ(e[1],e[2],a),o=P([0,c(2,b),b],h);return[0,[3,v(h,h),[4,f,f]],o,[0,b,b]];default:var
-j=e[1],p=aD(j);return[0,[3,v(aD(j),a),f],p,[0,d,b]]}},m=function(j){var
+h=aS(e[1],e[2],a),o=S([0,c(2,b),b],h);return[0,[3,v(h,h),[4,f,f]],o,[0,b,b]];default:var
+j=e[1],p=aE(j);return[0,[3,v(aE(j),a),f],p,[0,d,b]]}},n=function(j){var
 e=j[1],f=e[2],c=e[1],d=j[2];switch(c[0]){case
 0:var
-g=c[3],h=c[2],i=c[1],k=aQ(h,g,a),l=[3,v(aD(i),k),f],m=b7(i,h,g,c[4],a);return ec([5,[0,d,b],[2,ct(c[5],m),l]]);case
-1:return ec([5,[0,d,b],[2,f,cW(c,a)]]);default:return[0,d,b]}},L=v(t,t),N=[4,e5(function(a){var
-b=k(a)[3];return[4,m(a),b]},w),L],O=v(f8(function(a){var
-b=k(a)[2];return P(m(a),b)},w),t);return kR(h,yb,ya,[2,[2,e5(function(a){var
-b=k(a)[1];return[4,m(a),b]},w),O],N])}var
+g=c[3],h=c[2],i=c[1],k=aS(h,g,a),l=[3,v(aE(i),k),f],m=b_(i,h,g,c[4],a);return ef([5,[0,d,b],[2,cx(c[5],m),l]]);case
+1:return ef([5,[0,d,b],[2,f,cZ(c,a)]]);default:return[0,d,b]}},L=v(t,t),O=[4,e9(function(a){var
+b=k(a)[3];return[4,n(a),b]},w),L],P=v(gf(function(a){var
+b=k(a)[2];return S(n(a),b)},w),t);return kU(h,yr,yq,[2,[2,e9(function(a){var
+b=k(a)[1];return[4,n(a),b]},w),P],O])}var
 J=I}else
 var
 J=G;var
@@ -6304,124 +6490,124 @@ z=q;var
 A=z}else
 var
 A=y;return A}function
-yc(a){var
-b=dw(a2(a[3])),c=b?dw(a2(a[4])):b;return c?dw([0,a[2],0]):c}function
-qh(a,d,c){var
-b=aB(0,bH(a));return e(function(b){var
-e=aF(b,bS(a))?d:c;return cy(b,e)},b)}function
-qi(e,a,f){if(typeof
+ys(a){var
+b=dz(a3(a[3])),c=b?dz(a3(a[4])):b;return c?dz([0,a[2],0]):c}function
+qv(a,d,c){var
+b=aA(0,bK(a));return e(function(b){var
+e=aF(b,bV(a))?d:c;return cC(b,e)},b)}function
+qw(e,a,f){if(typeof
 e==="number"){if(e){var
-g=cy(yd,a);return[0,[0,cy(0,a),g,[0,d,b]],kQ]}var
-h=cy(ye,a),i=cy(yf,a);return[0,[0,cy(0,a),i,h],kQ]}var
-c=e[1],j=kJ(c,qh(c,a,f));return[0,kI(c,qh(c,a,f)),j]}function
-qj(g,e,u,o,a){var
-p=hY(aC(cY,u));if(p){var
+g=cC(yt,a);return[0,[0,cC(0,a),g,[0,d,b]],kT]}var
+h=cC(yu,a),i=cC(yv,a);return[0,[0,cC(0,a),i,h],kT]}var
+c=e[1],j=kM(c,qv(c,a,f));return[0,kL(c,qv(c,a,f)),j]}function
+qx(g,e,u,o,a){var
+p=h$(aD(c1,u));if(p){var
 w=p[1],q=typeof
-e==="number"?[0,[0,b,b]]:hY(h(cv(cY),o));if(q){var
+e==="number"?[0,[0,b,b]]:h$(h(cz(c1),o));if(q){var
 r=q[1],x=i(g,1,u);if(x)if(typeof
 e==="number")var
 j=1;else
 var
-B=i(g,1,o),C=B?cw(g,o):B,j=C?I(bo(r,[0,d,b])):C;else
+B=i(g,1,o),C=B?cA(g,o):B,j=C?J(bp(r,[0,d,b])):C;else
 var
 j=x;var
-y=j?l(yc,a):j;if(y){var
-f=qi(e,w,r)[2],k=qi(e,w,r)[1],m=[0,c(2,b),b],n=function(b){return f8(function(a){var
-c=a[3],d=h(b,a[4]);return P([4,a[1],d],c)},a)},s=e5(function(a){var
-b=v(a[3],a[4]);return[4,a[1],b]},a),t=v(f,f),D=n(function(a){return a[3]}),E=P(f[3],D),F=n(function(a){return a[2]}),G=P(f[2],F),H=n(function(a){return a[1]}),J=P(f[1],H),K=M(function(b,a){return[2,b,a]},J,G),L=[4,t,s],N=v(f,M(function(b,a){return[2,b,a]},K,E)),O=[3,[2,v(f,f8(function(a){var
-b=cu(a[4],a[3]);return P(a[1],b)},a)),N],L],Q=[2,[4,m,s],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],t]],O]],R=[4,m,v(k,oG(f,f8(function(a){return P(a[1],a[4])},a)))],S=v(k,k),T=[2,[4,e5(function(a){return a[1]},a),S],R],U=[4,m,v(f8(function(a){return P(a[1],a[3])},a),k)],V=[2,[2,[2,e5(function(a){var
-b=[4,a[2],a[2]],c=v(a[4],a[4]),d=[3,[2,v(a[3],a[3]),c],b];return[4,a[1],d]},a),U],T],Q],W=typeof
-e==="number"?an(e):bS(e[1]);return kR(g,an(e),W,V)}var
+y=j?l(ys,a):j;if(y){var
+f=qw(e,w,r)[2],k=qw(e,w,r)[1],m=[0,c(2,b),b],n=function(b){return gf(function(a){var
+c=a[3],d=h(b,a[4]);return S([4,a[1],d],c)},a)},s=e9(function(a){var
+b=v(a[3],a[4]);return[4,a[1],b]},a),t=v(f,f),D=n(function(a){return a[3]}),E=S(f[3],D),F=n(function(a){return a[2]}),G=S(f[2],F),H=n(function(a){return a[1]}),I=S(f[1],H),K=M(function(b,a){return[2,b,a]},I,G),L=[4,t,s],N=v(f,M(function(b,a){return[2,b,a]},K,E)),O=[3,[2,v(f,gf(function(a){var
+b=cy(a[4],a[3]);return S(a[1],b)},a)),N],L],P=[2,[4,m,s],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],t]],O]],Q=[4,m,v(k,oU(f,gf(function(a){return S(a[1],a[4])},a)))],R=v(k,k),T=[2,[4,e9(function(a){return a[1]},a),R],Q],U=[4,m,v(gf(function(a){return S(a[1],a[3])},a),k)],V=[2,[2,[2,e9(function(a){var
+b=[4,a[2],a[2]],c=v(a[4],a[4]),d=[3,[2,v(a[3],a[3]),c],b];return[4,a[1],d]},a),U],T],P],W=typeof
+e==="number"?ap(e):bV(e[1]);return kU(g,ap(e),W,V)}var
 z=y}else
 var
 z=q;var
 A=z}else
 var
 A=p;return A}function
-qk(a){return[6,v(a,a)]}function
-ql(b){if(0===b[0])return[0,qg(b[1])];var
-a=b[1],c=a[7],d=ed(a[6]),e=ed(a[5]),f=bJ(a[4]),g=bJ(a[3]),h=bJ(a[2]);return[1,[0,bJ(a[1]),h,g,f,e,d,c]]}function
-hZ(f,e,c,a){if(typeof
+qy(a){return[6,v(a,a)]}function
+qz(b){if(0===b[0])return[0,qu(b[1])];var
+a=b[1],c=a[7],d=eg(a[6]),e=eg(a[5]),f=bM(a[4]),g=bM(a[3]),h=bM(a[2]);return[1,[0,bM(a[1]),h,g,f,e,d,c]]}function
+ia(f,e,c,a){if(typeof
 a==="number")return 0;else{if(0===a[0]){var
-g=a[1],j=K(c,d)?[3,g,f]:[2,g,f];return[0,j]}var
-h=a[2],i=a[1],k=K(c,d)?gW(e):e,b=bb(k),l=[4,i,d4(b)],m=[2,[4,h,d3(b)],l],n=[4,h,d4(b)];return[1,[3,[4,i,d3(b)],n],m]}}function
-kS(a,c){if(F(c,b))return a;var
-g=aY(c,aO(2)),h=g[1];if(L(g[2],d)){var
-e=kS(a,h);return[4,e,e]}var
-f=kS(a,h);return[4,[4,f,f],a]}function
-a3(c,a){switch(a[0]){case
+g=a[1],j=I(c,d)?[3,g,f]:[2,g,f];return[0,j]}var
+h=a[2],i=a[1],k=I(c,d)?g4(e):e,b=bc(k),l=[4,i,d7(b)],m=[2,[4,h,d6(b)],l],n=[4,h,d7(b)];return[1,[3,[4,i,d6(b)],n],m]}}function
+kV(a,c){if(D(c,b))return a;var
+g=a1(c,aQ(2)),h=g[1];if(H(g[2],d)){var
+e=kV(a,h);return[4,e,e]}var
+f=kV(a,h);return[4,[4,f,f],a]}function
+a4(c,a){switch(a[0]){case
 0:return a[1];case
-1:return pX([0,d,b],c,a[1]);case
-2:return[3,[0,d,b],a3(c,a[1])];case
+1:return p$([0,d,b],c,a[1]);case
+2:return[3,[0,d,b],a4(c,a[1])];case
 3:var
-e=a3(c,a[2]);return[2,a3(c,a[1]),e];case
+e=a4(c,a[2]);return[2,a4(c,a[1]),e];case
 4:var
-f=a3(c,a[2]);return[3,a3(c,a[1]),f];case
+f=a4(c,a[2]);return[3,a4(c,a[1]),f];case
 5:var
-g=a3(c,a[2]);return[4,a3(c,a[1]),g];case
+g=a4(c,a[2]);return[4,a4(c,a[1]),g];case
 6:var
-h=a3(c,a[2]);return[5,a3(c,a[1]),h];case
+h=a4(c,a[2]);return[5,a4(c,a[1]),h];case
 7:var
-i=a[2];return kS(a3(c,a[1]),i);default:return[6,a3(c,a[1])]}}function
-f_(d,h,g){var
-i=d[3],b=kz(d,g,h),a=i;for(;;){if(a){var
-c=a[1],e=a[2],f=a3(b,c[2]),b=[0,[0,c[1],f],b],a=e;continue}return b}}function
-f$(c){var
+i=a[2];return kV(a4(c,a[1]),i);default:return[6,a4(c,a[1])]}}function
+gh(d,h,g){var
+i=d[3],b=kC(d,g,h),a=i;for(;;){if(a){var
+c=a[1],e=a[2],f=a4(b,c[2]),b=[0,[0,c[1],f],b],a=e;continue}return b}}function
+gi(c){var
 a=c;for(;;)switch(a[0]){case
-0:return I(dQ(a[1]));case
+0:return J(dU(a[1]));case
 1:return 1;case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-b=f$(a[1]);if(b){var
+b=gi(a[1]);if(b){var
 a=a[2];continue}return b}}function
-kT(a){if(a){var
+kW(a){if(a){var
 b=a[1];if(0===b[0])return 0;var
-c=b[1],d=kT(a[2]);return x(function(a){return[0,c,a]},d)}return yi}function
-e6(c,e,p){var
+c=b[1],d=kW(a[2]);return x(function(a){return[0,c,a]},d)}return yy}function
+e_(c,e,p){var
 a=p;for(;;)switch(a[0]){case
 6:var
-g=a[2],i=e6(c,e,a[1]),j=i?e6(c,e,g):i;if(j){var
-k=a3(e,g),l=h(c,k);if(!l)return h(c,[3,[0,d,b],k]);var
+g=a[2],i=e_(c,e,a[1]),j=i?e_(c,e,g):i;if(j){var
+k=a4(e,g),l=h(c,k);if(!l)return h(c,[3,[0,d,b],k]);var
 m=l}else
 var
 m=j;return m;case
 8:var
-n=a[1],o=e6(c,e,n);return o?h(c,a3(e,n)):o;case
+n=a[1],o=e_(c,e,n);return o?h(c,a4(e,n)):o;case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 1;default:var
-f=e6(c,e,a[1]);if(f){var
+f=e_(c,e,a[1]);if(f){var
 a=a[2];continue}return f}}function
-qm(j,c,i,h,n){var
-o=c[3],b=kz(c,h,i),a=o;for(;;){if(a){var
-e=a[1],f=e[2],g=e6(j,b,f);if(g){var
-k=a[2],m=a3(b,f),b=[0,[0,e[1],m],b],a=k;continue}var
+qA(j,c,i,h,n){var
+o=c[3],b=kC(c,h,i),a=o;for(;;){if(a){var
+e=a[1],f=e[2],g=e_(j,b,f);if(g){var
+k=a[2],m=a4(b,f),b=[0,[0,e[1],m],b],a=k;continue}var
 d=g}else
 var
 d=1;if(d){var
-p=f_(c,i,h);return l(function(a){return e6(j,p,a)},n)}return d}}var
-h1=z(m(b),h0);function
-qn(e){var
-a=W(h1);if(e)var
-f=s(m(c(2,b)),a),g=B(m(c(2,c(2,b))),f),h=s(m(c(2,b)),a),d=ai(B(m(b),h),g);else
+p=gh(c,i,h);return l(function(a){return e_(j,p,a)},n)}return d}}var
+ic=A(n(b),ib);function
+qB(e){var
+a=X(ic);if(e)var
+f=u(n(c(2,b)),a),g=C(n(c(2,c(2,b))),f),h=u(n(c(2,b)),a),d=aj(C(n(b),h),g);else
 var
-i=B(m(c(2,b)),a),j=W(h0),d=ai(B(s(m(c(2,b)),j),a),i);return aM(d)}function
-qo(d,c,a){if(d){var
-e=qn(c),f=B(m(b),e),g=s(z(m(b),a),f);return z(m(b),g)}var
-h=m(b),i=qn(c),j=ai(m(b),i);return z(s(a,B(m(b),j)),h)}function
-e7(f,e,d,a){var
-g=W(a),h=W(d),i=z(z(m(c(2,b)),h),g),j=f?e?h1:ai(h1,s(m(c(2,b)),h0)):ai(h1,m(c(2,b))),k=s(W(j),i);return aM(B(m(b),k))}function
-qp(a,d){var
-h=a?b:R(b),e=m(h),f=qo(a,d,yn),g=qo(a,d,yo),i=ai(f,e7(a,d,e,f)),j=[0,B(ai(g,e7(a,d,g,e)),i),0],k=ai(e,e7(a,d,e,f)),l=[0,B(ai(g,e7(a,d,f,g)),k),j],n=ai(e,e7(a,d,g,e)),o=[0,B(ai(f,e7(a,d,f,g)),n),l],p=a?d?m(c(2,b)):s(m(c(2,c(2,b))),h0):m(c(2,c(2,b)));return[0,p,o]}function
-qq(g,d){var
+i=C(n(c(2,b)),a),j=X(ib),d=aj(C(u(n(c(2,b)),j),a),i);return aO(d)}function
+qC(d,c,a){if(d){var
+e=qB(c),f=C(n(b),e),g=u(A(n(b),a),f);return A(n(b),g)}var
+h=n(b),i=qB(c),j=aj(n(b),i);return A(u(a,C(n(b),j)),h)}function
+e$(f,e,d,a){var
+g=X(a),h=X(d),i=A(A(n(c(2,b)),h),g),j=f?e?ic:aj(ic,u(n(c(2,b)),ib)):aj(ic,n(c(2,b))),k=u(X(j),i);return aO(C(n(b),k))}function
+qD(a,d){var
+h=a?b:U(b),e=n(h),f=qC(a,d,yD),g=qC(a,d,yE),i=aj(f,e$(a,d,e,f)),j=[0,C(aj(g,e$(a,d,g,e)),i),0],k=aj(e,e$(a,d,e,f)),l=[0,C(aj(g,e$(a,d,f,g)),k),j],m=aj(e,e$(a,d,g,e)),o=[0,C(aj(f,e$(a,d,f,g)),m),l],p=a?d?n(c(2,b)):u(n(c(2,c(2,b))),ib):n(c(2,c(2,b)));return[0,p,o]}function
+qE(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
-e=b[2],f=c[1]?A(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-kU(w,v,u,t){var
-a=e(function(a){return r(a,u,0)},v);if(a){var
+e=b[2],f=c[1]?z(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
+kX(w,v,u,t){var
+a=e(function(a){return q(a,u,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
 g=b[1];if(g){var
@@ -6430,7 +6616,7 @@ i=c[1];if(i){var
 d=c[2];if(d){var
 j=d[1];if(j){if(d[2])return 0;var
 x=j[1],y=i[1],z=g[1],A=f[1];return l(function(a){var
-c=h(a,x),d=h(a,y),e=h(a,z),b=h(a,A);return eJ(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
+c=h(a,x),d=h(a,y),e=h(a,z),b=h(a,A);return eK(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
 k=j}else
 var
 k=d;var
@@ -6446,18 +6632,18 @@ o=g;var
 p=o}else
 var
 p=b;var
-q=p}else
+r=p}else
 var
-q=f;var
-s=q}else
+r=f;var
+s=r}else
 var
 s=a;return s}function
-qr(f,i,e,c,h){var
-j=f?b:d,a=J(i,j);function
+qF(f,i,e,c,h){var
+j=f?b:d,a=L(i,j);function
 g(b){var
-c=f?cl(b):cN(b);return C(c,a)}var
-k=[0,ad(h),0],l=[0,[0,a,c,[0,u,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-qs(r,b,q,p,g,o,n){if(o){var
+c=f?bA(b):b5(b);return B(c,a)}var
+k=[0,_(h),0],l=[0,[0,a,c,[0,t,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+qG(r,b,q,p,g,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(g){var
 h=g[2],c=0;if(h){var
@@ -6466,16 +6652,16 @@ a=0;c=1;d=1}else{var
 t=i[1],k=h[1],l=g[1],f=0;if(typeof
 j==="number")switch(j){case
 0:var
-A=e(aH,ba(yp)),z=e(ad,0),a=kU(b,p,c_(0,b4(b,dU(0,g),z),q),A);c=1;d=1;f=1;break;case
+A=e(av,a9(yF)),z=e(_,0),a=kX(b,p,cR(0,b7(b,dj(0,g),z),q),A);c=1;d=1;f=1;break;case
 3:var
-a=F(k[2],l[1]);c=1;d=1;f=1;break}else
+a=D(k[2],l[1]);c=1;d=1;f=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-B=e(qq,yq),a=kU(b,p,c_(0,b4(b,qr(r,b,l,k,t),0),q),B);c=1;d=1;f=1}else{var
+B=e(qE,yG),a=kX(b,p,cR(0,b7(b,qF(r,b,l,k,t),0),q),B);c=1;d=1;f=1}else{var
 a=m;c=1;d=1;f=1}else
 if(m){var
 a=0;c=1;d=1;f=1}else{var
-C=e(qq,yr),a=kU(b,p,c_(0,b4(b,qr(r,b,l,k,t),0),q),C);c=1;d=1;f=1}}if(!f)var
+C=e(qE,yH),a=kX(b,p,cR(0,b7(b,qF(r,b,l,k,t),0),q),C);c=1;d=1;f=1}}if(!f)var
 u=0}else
 var
 u=i;if(!d)var
@@ -6485,29 +6671,29 @@ v=h;if(!c){var
 w=v;s=1}}else{var
 w=g;s=1}if(s)var
 a=w;var
-y=a?ys:a}else
+y=a?yI:a}else
 var
 y=n;return y}return[0,n]}function
-qt(f,e,d,c,p,o,n){var
+qH(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;)switch(a[0]){case
 0:var
-h=qs(f,e,d,c,b,a[1],g);return h?I(h[1]):h;case
+h=qG(f,e,d,c,b,a[1],g);return h?J(h[1]):h;case
 1:var
-i=qs(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=dg(a[2],b),l=qt(f,e,d,c,k[1],j,a[3]);if(l){var
+i=qG(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=dk(a[2],b),l=qH(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m;default:return 0}}function
-kV(a){return cj(c(2,b),aR(a,b))}function
-e8(c,a,b,i,h){var
-f=db(qp(a,b)),j=qp(a,b),k=e(cP(da(f)),j),g=[0,d,cM(c)];return qt(a,c,f,k,[0,g,[0,g,[0,i,0]]],1,h)}function
-qu(a,g,b){if(K(g,kV(a))){if(b){var
+kY(a){return cm(c(2,b),aT(a,b))}function
+fa(c,a,b,i,h){var
+f=dd(qD(a,b)),j=qD(a,b),k=e(cS(dc(f)),j),g=[0,d,cQ(c)];return qH(a,c,f,k,[0,g,[0,g,[0,i,0]]],1,h)}function
+qI(a,g,b){if(I(g,kY(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,kV(a)],v=cM(a),i=[0,kV(a),v],j=e8(a,0,1,h,b[1]),k=j?e8(a,0,0,i,c[1]):j;if(k){var
-l=e8(a,1,1,h,d[1]);if(l)return e8(a,1,0,i,e[1]);var
+h=[0,g,kY(a)],v=cQ(a),i=[0,kY(a),v],j=fa(a,0,1,h,b[1]),k=j?fa(a,0,0,i,c[1]):j;if(k){var
+l=fa(a,1,1,h,d[1]);if(l)return fa(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -6524,301 +6710,301 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cM(a)],s=e8(a,0,0,r,b[1]);if(s)return e8(a,1,0,r,f[1]);var
+r=[0,g,cQ(a)],s=fa(a,0,0,r,b[1]);if(s)return fa(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-kW(a){var
-b=[1,[2,d]];return bD(function(b,a){return[1,[3,b,a]]},a,b)}function
-h2(a){return kW(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-h3(a,c){return kW(e(function(a){var
-d=[0,a[2]],b=V(a[1],c);return[1,[7,[1,[8,kW(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-qv(e,d,c,b,a){if(0===a[0])return r(a[1],b,0);var
-f=a[1],g=b3(function(a){return qv(e,d,c,b,a)},f);return h(b4(e,d,c),g)}function
-qw(a){return a?K(d,a[1][2][1]):a}function
-yt(a){var
-b=n(f(a),yu);return b?aj(function(a){return I(L(a,d))},a):b}function
-qx(c,f,b,a){if(b)if(a)var
-d=b[1],g=t(c,J(c,a[1]),f),h=qx(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
+kZ(a){var
+b=[1,[2,d]];return by(function(b,a){return[1,[3,b,a]]},a,b)}function
+id(a){return kZ(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+ie(a,c){return kZ(e(function(a){var
+d=[0,a[2]],b=N(a[1],c);return[1,[7,[1,[8,kZ(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+qJ(e,d,c,b,a){if(0===a[0])return q(a[1],b,0);var
+f=a[1],g=b6(function(a){return qJ(e,d,c,b,a)},f);return h(b7(e,d,c),g)}function
+qK(a){return a?I(d,a[1][2][1]):a}function
+yJ(a){var
+b=m(f(a),yK);return b?ag(function(a){return J(H(a,d))},a):b}function
+qL(c,f,b,a){if(b)if(a)var
+d=b[1],g=s(c,L(c,a[1]),f),h=qL(c,f,b[2],a[2]),i=d[3],j=z(d[2],g),e=[0,[0,z(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-qy(d,c){var
-a=E(c,d);if(a){var
-b=a[1],e=b[1];return I(L(cp(b),e))}return a}function
-h4(b,a){return eB(eB(b,0),a)}function
-kX(a){if(a){var
-b=a[2],c=a[1];if(b)return h4(c,[0,yw,kX(b)]);var
+qM(d,c){var
+a=F(c,d);if(a){var
+b=a[1],e=b[1];return J(H(ct(b),e))}return a}function
+ig(b,a){return eD(eD(b,0),a)}function
+k0(a){if(a){var
+b=a[2],c=a[1];if(b)return ig(c,[0,yM,k0(b)]);var
 d=c}else
 var
 d=a;return d}function
-H(a){return[0,yy,h4(kX(a),yx)]}function
-ak(a){return[0,yA,h4(kX(a),yz)]}function
-av(a){return[0,yC,[0,a,yB]]}function
-o(b,a){return[0,bn(yE,bn(b,yD)),a]}function
-T(b,a){return ak([0,o(b,a),0])}function
-cZ(d){var
-b=d,a=uc,e=0;for(;;){if(b){var
-c=mm(a),b=b[1],a=c;continue}return[0,fy(gK(a)),e]}}function
-kY(a){return[0,fy(gT(a)),0]}function
-ga(a){var
-c=aX(a),f=0,b=0===c?ui:0<c?[0,gT(a)]:[1,gT(R(a))];if(0===b[0])var
-d=fy(b[1]);else
+K(a){return[0,yO,ig(k0(a),yN)]}function
+ak(a){return[0,yQ,ig(k0(a),yP)]}function
+aw(a){return[0,yS,[0,a,yR]]}function
+o(b,a){return[0,bo(yU,bo(b,yT)),a]}function
+V(b,a){return ak([0,o(b,a),0])}function
+c2(d){var
+b=d,a=uq,e=0;for(;;){if(b){var
+c=mp(a),b=b[1],a=c;continue}return[0,fD(gS(a)),e]}}function
+k1(a){return[0,fD(g1(a)),0]}function
+gj(a){var
+c=a0(a),f=0,b=0===c?uw:0<c?[0,g1(a)]:[1,g1(U(a))];if(0===b[0])var
+d=fD(b[1]);else
 var
-e=fy(b[1]),d=bn(bZ(1,45),e);return[0,d,f]}function
-e9(a){var
-b=0,c=0<aX(a)?gT(a):ug;return[0,fy(c),b]}function
-kZ(a){switch(a[0]){case
-2:return yG;case
-3:return 2<=a[1]?yH:yI;case
-4:return yJ;default:return yF}}function
-gb(b,a){function
-c(c,a){return ae(c,kZ(a))?gb(b,a):[0,yP,g(gb(b,a),yO)]}switch(a[0]){case
+e=fD(b[1]),d=bo(b2(1,45),e);return[0,d,f]}function
+fb(a){var
+b=0,c=0<a0(a)?g1(a):uu;return[0,fD(c),b]}function
+k2(a){switch(a[0]){case
+2:return yW;case
+3:return 2<=a[1]?yX:yY;case
+4:return yZ;default:return yV}}function
+gk(b,a){function
+c(c,a){return ae(c,k2(a))?gk(b,a):[0,y5,g(gk(b,a),y4)]}switch(a[0]){case
 0:var
 e=a[2],f=a[1];if(typeof
-e==="number")return[0,bw(f),0];var
-i=[0,yQ,[0,bw(e),0]];return[0,bw(f),i];case
+e==="number")return[0,bz(f),0];var
+i=[0,y6,[0,bz(e),0]];return[0,bz(f),i];case
 1:return[0,h(b,a[1]),0];case
-2:return[0,yS,c(yR,a[1])];case
+2:return[0,y8,c(y7,a[1])];case
 3:var
-j=a[3],k=c([0,kZ(a)],j);switch(a[1]){case
+j=a[3],k=c([0,k2(a)],j);switch(a[1]){case
 0:var
-d=yK;break;case
+d=y0;break;case
 1:var
-d=yL;break;case
+d=y1;break;case
 2:var
-d=yM;break;default:var
-d=yN}var
-l=a[2];return g(c(kZ(a),l),[0,d,k]);case
+d=y2;break;default:var
+d=y3}var
+l=a[2];return g(c(k2(a),l),[0,d,k]);case
 4:var
-m=[0,yT,kY(a[2])];return g(c(yU,a[1]),m);default:return[0,yW,g(gb(b,a[1]),yV)]}}function
-Q(a){return[0,yZ,g(gb(function(a){return 0===a[0]?a[1]:yY},a),yX)]}function
-k0(a){return[0,y1,g(gb(function(a){return a},a),y0)]}function
-c0(a){if(0===a[0])return Q(a[1]);var
-b=[0,o(y2,Q(a[2])),0];return ak([0,o(y3,Q(a[1])),b])}function
-h5(b,a){var
-c=[0,h(b,a[3]),0],d=[0,h(b,a[2]),c];return H([0,h(b,a[1]),d])}function
-y4(a){function
-b(a){return h5(c0,a)}switch(a[0]){case
+m=[0,y9,k1(a[2])];return g(c(y_,a[1]),m);default:return[0,za,g(gk(b,a[1]),y$)]}}function
+T(a){return[0,zd,g(gk(function(a){return 0===a[0]?a[1]:zc},a),zb)]}function
+k3(a){return[0,zf,g(gk(function(a){return a},a),ze)]}function
+c3(a){if(0===a[0])return T(a[1]);var
+b=[0,o(zg,T(a[2])),0];return ak([0,o(zh,T(a[1])),b])}function
+ih(b,a){var
+c=[0,h(b,a[3]),0],d=[0,h(b,a[2]),c];return K([0,h(b,a[1]),d])}function
+zi(a){function
+b(a){return ih(c3,a)}switch(a[0]){case
 0:var
-e=0,f=a[5]?y5:zb,h=[0,o(y6,av(f)),e],i=[0,o(y7,c0(a[4])),h],j=[0,o(y8,b(a[3])),i],k=[0,o(y9,b(a[2])),j],l=[0,o(y_,b(a[1])),k],c=[0,o(za,av(y$)),l];break;case
+e=0,f=a[5]?zj:zr,h=[0,o(zk,aw(f)),e],i=[0,o(zl,c3(a[4])),h],j=[0,o(zm,b(a[3])),i],k=[0,o(zn,b(a[2])),j],l=[0,o(zo,b(a[1])),k],c=[0,o(zq,aw(zp)),l];break;case
 1:var
-d=a[3],m=d?[0,o(zc,b(d[1])),0]:d,n=[0,o(zd,b(a[2])),0],p=[0,o(ze,b(a[1])),n],c=g([0,o(zg,av(zf)),p],m);break;default:var
-q=[0,o(zh,b(a[1])),0],c=[0,o(zj,av(zi)),q]}return ak(c)}function
-zk(a){function
-b(a){return H(e(c0,a))}function
+d=a[3],m=d?[0,o(zs,b(d[1])),0]:d,n=[0,o(zt,b(a[2])),0],p=[0,o(zu,b(a[1])),n],c=g([0,o(zw,aw(zv)),p],m);break;default:var
+q=[0,o(zx,b(a[1])),0],c=[0,o(zz,aw(zy)),q]}return ak(c)}function
+zA(a){function
+b(a){return K(e(c3,a))}function
 f(a){var
-b=a?zl:zn;return o(zm,av(b))}switch(a[0]){case
+b=a?zB:zD;return o(zC,aw(b))}switch(a[0]){case
 0:var
-h=[0,f(a[5]),0],i=[0,o(zo,c0(a[4])),h],j=[0,o(zp,b(a[3])),i],k=[0,o(zq,b(a[2])),j],l=[0,o(zr,b(a[1])),k],c=[0,o(zt,av(zs)),l];break;case
+h=[0,f(a[5]),0],i=[0,o(zE,c3(a[4])),h],j=[0,o(zF,b(a[3])),i],k=[0,o(zG,b(a[2])),j],l=[0,o(zH,b(a[1])),k],c=[0,o(zJ,aw(zI)),l];break;case
 1:var
-d=a[3],m=d?[0,o(zu,b(d[1])),0]:d,n=[0,o(zv,b(a[2])),0],p=[0,o(zw,b(a[1])),n],c=g([0,o(zy,av(zx)),p],m);break;case
+d=a[3],m=d?[0,o(zK,b(d[1])),0]:d,n=[0,o(zL,b(a[2])),0],p=[0,o(zM,b(a[1])),n],c=g([0,o(zO,aw(zN)),p],m);break;case
 2:var
-q=[0,o(zz,b(a[1])),0],c=[0,o(zB,av(zA)),q];break;default:var
-r=[0,f(a[7]),0],s=[0,o(zC,c0(a[6])),r],t=[0,o(zD,c0(a[5])),s],u=[0,o(zE,b(a[4])),t],v=[0,o(zF,b(a[3])),u],w=[0,o(zG,b(a[2])),v],x=[0,o(zH,b(a[1])),w],c=[0,o(zJ,av(zI)),x]}return ak(c)}function
-k1(a){switch(a){case
-0:return zK;case
-1:return zL;case
-2:return zM;case
-3:return zN;case
-4:return zO;case
-5:return zP;case
-6:return zQ;case
-7:return zR;case
-8:return zS;case
-9:return zT;case
-10:return zU;case
-11:return zV;case
-12:return zW;case
-13:return zX;case
-14:return zY;case
-15:return zZ;default:return z0}}function
-k2(a){if(typeof
-a==="number")return z1;else
+q=[0,o(zP,b(a[1])),0],c=[0,o(zR,aw(zQ)),q];break;default:var
+r=[0,f(a[7]),0],s=[0,o(zS,c3(a[6])),r],t=[0,o(zT,c3(a[5])),s],u=[0,o(zU,b(a[4])),t],v=[0,o(zV,b(a[3])),u],w=[0,o(zW,b(a[2])),v],x=[0,o(zX,b(a[1])),w],c=[0,o(zZ,aw(zY)),x]}return ak(c)}function
+k4(a){switch(a){case
+0:return z0;case
+1:return z1;case
+2:return z2;case
+3:return z3;case
+4:return z4;case
+5:return z5;case
+6:return z6;case
+7:return z7;case
+8:return z8;case
+9:return z9;case
+10:return z_;case
+11:return z$;case
+12:return Aa;case
+13:return Ab;case
+14:return Ac;case
+15:return Ad;default:return Ae}}function
+k5(a){if(typeof
+a==="number")return Af;else
 switch(a[0]){case
-0:return z2;case
-1:return z3;default:return z4}}function
-gc(a){var
+0:return Ag;case
+1:return Ah;default:return Ai}}function
+gl(a){var
 c=a[4];if(typeof
 c==="number")var
 d=0;else
 switch(c[0]){case
 0:var
-d=[0,o(z5,Q(c[1])),0];break;case
+d=[0,o(Aj,T(c[1])),0];break;case
 1:var
-d=[0,o(z6,Q(c[1])),0];break;default:var
-n=[0,Q(c[2]),0],d=[0,o(z7,H([0,Q(c[1]),n])),0]}var
-p=[0,o(z8,av(k2(a[4]))),d],i=a[3];if(i){var
+d=[0,o(Ak,T(c[1])),0];break;default:var
+n=[0,T(c[2]),0],d=[0,o(Al,K([0,T(c[1]),n])),0]}var
+p=[0,o(Am,aw(k5(a[4]))),d],i=a[3];if(i){var
 b=i[1];switch(b[0]){case
 0:var
-r=H([0,Q(b[1]),0]),k=a[1],q=0,s=6===k?z9:12===k?Ab:Ac,f=[0,o(z_,T(s,r)),q];break;case
+r=K([0,T(b[1]),0]),k=a[1],q=0,s=6===k?An:12===k?Ar:As,f=[0,o(Ao,V(s,r)),q];break;case
 1:var
-x=H(e(Q,b[1])),m=a[1],w=0;if(14<=m)switch(m+sv|0){case
+x=K(e(T,b[1])),m=a[1],w=0;if(14<=m)switch(m+sJ|0){case
 0:var
-h=Ad;break;case
+h=At;break;case
 1:var
-h=Af;break;default:var
-h=Ag}else
+h=Av;break;default:var
+h=Aw}else
 var
-h=Ah;var
-f=[0,o(Ae,T(h,x)),w];break;case
+h=Ax;var
+f=[0,o(Au,V(h,x)),w];break;case
 2:var
-y=[0,o(Ai,H([0,Q(b[2]),0])),0],f=[0,o(Ak,ak([0,o(Aj,H([0,Q(b[1]),0])),y])),0];break;default:var
-z=[0,o(Al,H([0,Q(b[2]),0])),0],f=[0,o(An,ak([0,o(Am,H([0,Q(b[1]),0])),z])),0]}var
+y=[0,o(Ay,K([0,T(b[2]),0])),0],f=[0,o(AA,ak([0,o(Az,K([0,T(b[1]),0])),y])),0];break;default:var
+z=[0,o(AB,K([0,T(b[2]),0])),0],f=[0,o(AD,ak([0,o(AC,K([0,T(b[1]),0])),z])),0]}var
 l=f}else
 var
 l=i;var
-t=g(l,p),j=a[2],u=j?[0,o(z$,cZ(j[1])),0]:j,v=g(u,t);return ak([0,o(Aa,av(k1(a[1]))),v])}function
-qz(a){if(0===a[0]){var
-b=[0,o(Ao,h5(Q,a[2])),0];return T(Aq,ak([0,o(Ap,h5(Q,a[1])),b]))}var
-c=[0,Q(a[5]),0],d=[0,o(Ar,H([0,Q(a[4]),c])),0],e=[0,o(As,Q(a[3])),d],f=[0,Q(a[2]),0];return T(Au,ak([0,o(At,H([0,Q(a[1]),f])),e]))}function
-qA(a){if(0===a[0]){var
-b=[0,o(Av,H(e(Q,a[2]))),0];return T(Ax,ak([0,o(Aw,H(e(Q,a[1]))),b]))}return qz([1,a[1],a[2],a[3],a[4],a[5]])}function
-qB(a){switch(a){case
-0:return Ay;case
-1:return Az;default:return AA}}function
-AB(a){function
-b(a){return H(e(c0,a))}var
-c=[0,o(AC,b(a[2])),0],d=[0,o(AD,b(a[1])),c];return ak([0,o(AF,av(AE)),d])}function
-qC(a){function
+t=g(l,p),j=a[2],u=j?[0,o(Ap,c2(j[1])),0]:j,v=g(u,t);return ak([0,o(Aq,aw(k4(a[1]))),v])}function
+qN(a){if(0===a[0]){var
+b=[0,o(AE,ih(T,a[2])),0];return V(AG,ak([0,o(AF,ih(T,a[1])),b]))}var
+c=[0,T(a[5]),0],d=[0,o(AH,K([0,T(a[4]),c])),0],e=[0,o(AI,T(a[3])),d],f=[0,T(a[2]),0];return V(AK,ak([0,o(AJ,K([0,T(a[1]),f])),e]))}function
+qO(a){if(0===a[0]){var
+b=[0,o(AL,K(e(T,a[2]))),0];return V(AN,ak([0,o(AM,K(e(T,a[1]))),b]))}return qN([1,a[1],a[2],a[3],a[4],a[5]])}function
+qP(a){switch(a){case
+0:return AO;case
+1:return AP;default:return AQ}}function
+AR(a){function
+b(a){return K(e(c3,a))}var
+c=[0,o(AS,b(a[2])),0],d=[0,o(AT,b(a[1])),c];return ak([0,o(AV,aw(AU)),d])}function
+qQ(a){function
 b(b,a){var
-c=[0,Q(a),0];return H([0,Q(b),c])}switch(a[0]){case
-0:return T(AG,b(a[1],a[2]));case
+c=[0,T(a),0];return K([0,T(b),c])}switch(a[0]){case
+0:return V(AW,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,o(AH,b(c[1],c[2])),0],g=[0,o(AI,b(d[1],d[2])),f];return T(AK,ak([0,o(AJ,b(e[1],e[2])),g]));case
-2:return T(AL,Q(a[1]));default:var
-h=[0,o(AM,Q(a[2])),0];return T(AO,ak([0,o(AN,Q(a[1])),h]))}}function
-AP(a){function
-b(a){return h5(Q,a)}if(0===a[0])var
-c=a[5],e=c?[0,o(AQ,b(c[1])),0]:c,f=[0,Q(a[4]),0],h=[0,o(AR,H([0,Q(a[3]),f])),0],i=[0,o(AS,Q(a[2])),h],j=[0,o(AT,cZ(a[1])),i],d=g([0,o(AV,av(AU)),j],e);else
+c=a[3],d=a[2],e=a[1],f=[0,o(AX,b(c[1],c[2])),0],g=[0,o(AY,b(d[1],d[2])),f];return V(A0,ak([0,o(AZ,b(e[1],e[2])),g]));case
+2:return V(A1,T(a[1]));default:var
+h=[0,o(A2,T(a[2])),0];return V(A4,ak([0,o(A3,T(a[1])),h]))}}function
+A5(a){function
+b(a){return ih(T,a)}if(0===a[0])var
+c=a[5],e=c?[0,o(A6,b(c[1])),0]:c,f=[0,T(a[4]),0],h=[0,o(A7,K([0,T(a[3]),f])),0],i=[0,o(A8,T(a[2])),h],j=[0,o(A9,c2(a[1])),i],d=g([0,o(A$,aw(A_)),j],e);else
 var
-k=[0,o(AW,Q(a[4])),0],l=[0,o(AX,b(a[3])),k],m=[0,o(AY,b(a[2])),l],n=a[1]?AZ:A1,d=[0,o(A0,av(n)),m];return ak(d)}function
-qD(a){var
-b=a?[0,o(A2,H(e(AP,a))),0]:a;return b}function
-k3(d,c,b,a){var
-f=[0,o(A3,H(e(gc,a))),0],h=g(qD(b),f),i=[0,o(A4,qz(c)),0];return ak(g([0,o(A6,T(A5,H(e(y4,d)))),i],h))}function
-A7(a){switch(a[0]){case
-0:return T(A8,k3(a[1],a[2],a[3],a[4]));case
+k=[0,o(Ba,T(a[4])),0],l=[0,o(Bb,b(a[3])),k],m=[0,o(Bc,b(a[2])),l],n=a[1]?Bd:Bf,d=[0,o(Be,aw(n)),m];return ak(d)}function
+qR(a){var
+b=a?[0,o(Bg,K(e(A5,a))),0]:a;return b}function
+k6(d,c,b,a){var
+f=[0,o(Bh,K(e(gl,a))),0],h=g(qR(b),f),i=[0,o(Bi,qN(c)),0];return ak(g([0,o(Bk,V(Bj,K(e(zi,d)))),i],h))}function
+Bl(a){switch(a[0]){case
+0:return V(Bm,k6(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],d=a[1],f=H(e(zk,a[2])),l=[0,o(A9,H(e(gc,a[6]))),0],m=b?[0,o(A_,qC(b[1])),0]:b,n=g(m,l),k=0,p=[0,o(A$,qA(a[4])),n];if(typeof
+b=a[5],c=a[3],d=a[1],f=K(e(zA,a[2])),l=[0,o(Bn,K(e(gl,a[6]))),0],m=b?[0,o(Bo,qQ(b[1])),0]:b,n=g(m,l),k=0,p=[0,o(Bp,qO(a[4])),n];if(typeof
 d==="number")if(d)var
-h=Ba;else{var
-i=T(Bf,f);k=1}else
+h=Bq;else{var
+i=V(Bv,f);k=1}else
 var
-h=qB(d[1]);if(!k)var
-q=c?[0,o(Bb,Q(c[1])),0]:c,i=T(h,ak([0,o(Bc,f),q]));return T(Be,ak([0,o(Bd,i),p]));case
+h=qP(d[1]);if(!k)var
+q=c?[0,o(Br,T(c[1])),0]:c,i=V(h,ak([0,o(Bs,f),q]));return V(Bu,ak([0,o(Bt,i),p]));case
 2:var
-r=[0,o(Bg,H(e(gc,a[7]))),0],s=g(qD(a[6]),r),t=[0,o(Bh,qC(a[5])),0],u=[0,o(Bi,qA(a[4])),t],v=[0,o(Bj,Q(a[3])),0],w=ak([0,o(Bk,H(e(AB,a[2]))),v]);return T(Bm,ak(g([0,o(Bl,T(qB(a[1]),w)),u],s)));case
+r=[0,o(Bw,K(e(gl,a[7]))),0],s=g(qR(a[6]),r),t=[0,o(Bx,qQ(a[5])),0],u=[0,o(By,qO(a[4])),t],v=[0,o(Bz,T(a[3])),0],w=ak([0,o(BA,K(e(AR,a[2]))),v]);return V(BC,ak(g([0,o(BB,V(qP(a[1]),w)),u],s)));case
 3:var
-x=[0,o(Bn,H(e(gc,a[7]))),0],y=[0,o(Bo,H(e(Q,a[6]))),0],z=[0,o(Br,T(Bq,ak([0,o(Bp,H(e(Q,a[5]))),y]))),x],A=0,B=a[4],C=[0,o(Bu,H(e(function(a){return 0===a[0]?T(Bs,H(e(k0,a[1]))):T(Bt,k0(a[1]))},B))),A],D=a[3],E=[0,o(Bv,H(e(function(a){var
-b=[0,k0(a[2]),0];return H([0,av(a[1]),b])},D))),C],F=a[2],G=[0,o(Bw,H(e(function(a){var
-b=[0,c0(a[2]),0];return H([0,av(a[1]),b])},F))),E];return T(BA,ak([0,o(Bz,T(By,ak([0,o(Bx,H(e(av,a[1]))),G]))),z]));case
+x=[0,o(BD,K(e(gl,a[7]))),0],y=[0,o(BE,K(e(T,a[6]))),0],z=[0,o(BH,V(BG,ak([0,o(BF,K(e(T,a[5]))),y]))),x],A=0,B=a[4],C=[0,o(BK,K(e(function(a){return 0===a[0]?V(BI,K(e(k3,a[1]))):V(BJ,k3(a[1]))},B))),A],D=a[3],E=[0,o(BL,K(e(function(a){var
+b=[0,k3(a[2]),0];return K([0,aw(a[1]),b])},D))),C],F=a[2],G=[0,o(BM,K(e(function(a){var
+b=[0,c3(a[2]),0];return K([0,aw(a[1]),b])},F))),E];return V(BQ,ak([0,o(BP,V(BO,ak([0,o(BN,K(e(aw,a[1]))),G]))),z]));case
 4:var
-I=[0,o(BB,H(e(gc,a[3]))),0],J=[0,o(BE,T(BD,ak([0,o(BC,Q(a[2])),0]))),I];return T(BI,ak([0,o(BH,T(BG,ak([0,o(BF,Q(a[1])),0]))),J]));case
+H=[0,o(BR,K(e(gl,a[3]))),0],I=[0,o(BU,V(BT,ak([0,o(BS,T(a[2])),0]))),H];return V(BY,ak([0,o(BX,V(BW,ak([0,o(BV,T(a[1])),0]))),I]));case
 5:var
-K=[0,o(BJ,Q(a[5])),0];return T(BL,ak([0,o(BK,k3(a[1],[0,a[2],a[3]],0,a[4])),K]));case
+J=[0,o(BZ,T(a[5])),0];return V(B1,ak([0,o(B0,k6(a[1],[0,a[2],a[3]],0,a[4])),J]));case
 6:var
-j=a[1],L=0,M=j?c0(j[1]):av(BO);return T(BN,ak([0,o(BM,M),L]));default:var
-N=[0,o(BP,Q(a[6])),0],O=[0,o(BQ,Q(a[5])),N],P=[0,o(BR,k3(a[2],a[3],0,a[4])),O],R=a[1];return T(BW,ak([0,o(BV,H(e(function(a){var
-b=[0,o(BS,Q(a[2][2])),0],c=[0,o(BT,Q(a[2][1])),b];return ak([0,o(BU,av(a[1])),c])},R))),P]))}}function
-ee(a){return H(e(ga,a))}function
-gd(b,a){var
-c=[0,o(BX,e9(a)),0];return ak([0,o(BY,H(e(ee,b))),c])}function
-dx(a){switch(a[0]){case
-0:return av(a[1]);case
+j=a[1],L=0,M=j?c3(j[1]):aw(B4);return V(B3,ak([0,o(B2,M),L]));default:var
+N=[0,o(B5,T(a[6])),0],O=[0,o(B6,T(a[5])),N],P=[0,o(B7,k6(a[2],a[3],0,a[4])),O],Q=a[1];return V(Ca,ak([0,o(B$,K(e(function(a){var
+b=[0,o(B8,T(a[2][2])),0],c=[0,o(B9,T(a[2][1])),b];return ak([0,o(B_,aw(a[1])),c])},Q))),P]))}}function
+dA(a){return K(e(gj,a))}function
+gm(b,a){var
+c=[0,o(Cb,fb(a)),0];return ak([0,o(Cc,K(e(dA,b))),c])}function
+dB(a){switch(a[0]){case
+0:return aw(a[1]);case
 1:var
-b=gd(a[2],a[3]);return T(a[1],b);case
+b=gm(a[2],a[3]);return V(a[1],b);case
 2:var
-c=a[1]?BZ:B1;return T(B0,av(c));case
+c=a[1]?Cd:Cf;return V(Ce,aw(c));case
 3:var
-d=[0,ee(a[3]),0];return T(B2,H([0,gd(a[1],a[2]),d]));case
+d=[0,dA(a[3]),0];return V(Cg,K([0,gm(a[1],a[2]),d]));case
 4:var
-f=[0,e9(a[4]),0],g=[0,ga(a[3]),f];return T(B3,H([0,gd(a[1],a[2]),g]));case
+f=[0,fb(a[4]),0],g=[0,gj(a[3]),f];return V(Ch,K([0,gm(a[1],a[2]),g]));case
 5:var
-h=[0,e9(a[3]),0],i=[0,ga(a[2]),h];return T(B4,H([0,dx(a[1]),i]));case
+h=[0,fb(a[3]),0],i=[0,gj(a[2]),h];return V(Ci,K([0,dB(a[1]),i]));case
 6:var
-j=[0,e9(a[3]),0],k=[0,ga(a[2]),j];return T(B5,H([0,dx(a[1]),k]));case
-7:return T(B6,dx(a[1]));case
+j=[0,fb(a[3]),0],k=[0,gj(a[2]),j];return V(Cj,K([0,dB(a[1]),k]));case
+7:return V(Ck,dB(a[1]));case
 8:var
-l=[0,H(e(ee,a[3])),0],m=[0,av(a[2]),l];return T(B7,H([0,dx(a[1]),m]));case
+l=[0,K(e(dA,a[3])),0],m=[0,aw(a[2]),l];return V(Cl,K([0,dB(a[1]),m]));case
 9:var
-n=a[1];return T(B8,H(e(function(a){var
-b=a[1],c=b[1],d=[0,dx(a[2]),0],e=[0,e9(b[2]),d],f=[0,ga(c[2]),e];return H([0,ee(c[1]),f])},n)));default:var
-o=[0,dx(a[4]),0],p=[0,dx(a[3]),o],q=[0,e9(a[2]),p];return T(B9,H([0,ee(a[1]),q]))}}function
-B_(a){var
-b=[0,dx(a[2]),0];return H([0,cZ(a[1]),b])}function
-qE(a){if(typeof
-a==="number")return 0===a?av(B$):av(Ca);else
+n=a[1];return V(Cm,K(e(function(a){var
+b=a[1],c=b[1],d=[0,dB(a[2]),0],e=[0,fb(b[2]),d],f=[0,gj(c[2]),e];return K([0,dA(c[1]),f])},n)));default:var
+o=[0,dB(a[5]),0],p=[0,dB(a[4]),o],q=[0,K(e(dA,a[3])),p],r=[0,fb(a[2]),q];return V(Cn,K([0,dA(a[1]),r]))}}function
+Co(a){var
+b=[0,dB(a[2]),0];return K([0,c2(a[1]),b])}function
+qS(a){if(typeof
+a==="number")return 0===a?aw(Cp):aw(Cq);else
 switch(a[0]){case
 0:var
-b=[0,H(e(ee,a[2])),0];return T(Cb,H([0,cZ(a[1]),b]));case
+b=[0,K(e(dA,a[2])),0];return V(Cr,K([0,c2(a[1]),b]));case
 1:var
-c=[0,cZ(a[2]),0];return T(Cc,H([0,cZ(a[1]),c]));case
-2:return T(Cd,H(e(Q,a[1])));default:var
-d=[0,o(Ce,gd(a[4],a[5])),0],f=[0,o(Cf,H(e(Q,a[3]))),d],g=[0,o(Cg,H(e(Q,a[2]))),f];return T(Ci,ak([0,o(Ch,cZ(a[1])),g]))}}function
-Cj(a){var
-b=a[4],h=b?[0,o(Ck,ee([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,o(Cl,qE(d[1])),0]:d,j=g(i,h),f=a[2],k=f?[0,o(Cm,cZ(f[1])),0]:f,l=g(k,j),c=a[1],m=c?[0,o(Cn,H(e(B_,[0,c[1],c[2]]))),0]:c;return ak(g(m,l))}function
-qF(f,a,d){var
-h=[0,o(Co,H(e(Cj,d))),0];if(a)var
-b=a[1],c=[0,o(Cp,gd(b[1],b[2])),0];else
+c=[0,c2(a[2]),0];return V(Cs,K([0,c2(a[1]),c]));case
+2:return V(Ct,K(e(T,a[1])));default:var
+d=[0,o(Cu,gm(a[4],a[5])),0],f=[0,o(Cv,K(e(T,a[3]))),d],g=[0,o(Cw,K(e(T,a[2]))),f];return V(Cy,ak([0,o(Cx,c2(a[1])),g]))}}function
+Cz(a){var
+b=a[4],h=b?[0,o(CA,dA([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,o(CB,qS(d[1])),0]:d,j=g(i,h),f=a[2],k=f?[0,o(CC,c2(f[1])),0]:f,l=g(k,j),c=a[1],m=c?[0,o(CD,K(e(Co,[0,c[1],c[2]]))),0]:c;return ak(g(m,l))}function
+qT(f,a,d){var
+h=[0,o(CE,K(e(Cz,d))),0];if(a)var
+b=a[1],c=[0,o(CF,gm(b[1],b[2])),0];else
 var
 c=a;var
-i=g(c,h);return ak([0,o(Cq,kY(f)),i])}function
-qG(d,c,a,b){var
-f=[0,o(Cr,qE(b)),0],h=a?[0,o(Cs,H(e(Q,a))),0]:a,i=g(h,f),j=[0,o(Ct,H(e(Q,c))),0];return ak(g([0,o(Cu,kY(d)),j],i))}function
-Cv(a){if(typeof
-a==="number")return av(Cw);else
+i=g(c,h);return ak([0,o(CG,k1(f)),i])}function
+qU(d,c,a,b){var
+f=[0,o(CH,qS(b)),0],h=a?[0,o(CI,K(e(T,a))),0]:a,i=g(h,f),j=[0,o(CJ,K(e(T,c))),0];return ak(g([0,o(CK,k1(d)),j],i))}function
+CL(a){if(typeof
+a==="number")return aw(CM);else
 switch(a[0]){case
-0:return T(Cx,cZ(a[1]));case
-1:return T(Cy,qF(a[1],a[2],a[3]));default:return T(Cz,qG(a[1],a[2],a[3],a[4]))}}function
-h6(a){var
-b=iZ(iY(aE(a),function(b){return bd(a,b)}));return l(function(a){var
-b=I(34===a?1:0),c=b?I(92===a?1:0):b,d=c?mF(32,a):c;return d?mF(a,126):d},b)}function
-k4(d){var
+0:return V(CN,c2(a[1]));case
+1:return V(CO,qT(a[1],a[2],a[3]));default:return V(CP,qU(a[1],a[2],a[3],a[4]))}}function
+ii(a){var
+b=ja(i$(aG(a),function(b){return be(a,b)}));return l(function(a){var
+b=J(34===a?1:0),c=b?J(92===a?1:0):b,d=c?mI(32,a):c;return d?mI(a,126):d},b)}function
+k7(d){var
 a=d;for(;;)switch(a[0]){case
 8:var
-b=h6(a[2]);if(b){var
+b=ii(a[2]);if(b){var
 a=a[1];continue}return b;case
 9:var
-e=a[1];return l(function(a){return k4(a[2])},e);case
+e=a[1];return l(function(a){return k7(a[2])},e);case
 10:var
-c=k4(a[3]);if(c){var
-a=a[4];continue}return c;case
+c=k7(a[4]);if(c){var
+a=a[5];continue}return c;case
 0:case
-1:return h6(a[1]);case
+1:return ii(a[1]);case
 5:case
 6:case
 7:var
 a=a[1];continue;default:return 1}}function
-ge(b){function
+gn(b){function
 c(f){var
-a=mE(f),b=ae(CO,a),c=b?ae(a,CP):b;if(c)var
+a=mH(f),b=ae(C4,a),c=b?ae(a,C5):b;if(c)var
 d=c;else{var
-e=ae(CQ,a);if(e)return ae(a,CR);var
+e=ae(C6,a);if(e)return ae(a,C7);var
 d=e}return d}var
-a=iZ(iY(aE(b),function(a){return bd(b,a)}));if(a){var
+a=ja(i$(aG(b),function(a){return be(b,a)}));if(a){var
 d=a[2],e=c(a[1]),g=e?l(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=mE(a),f=ae(CS,e),h=f?ae(e,CT):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,h=g?ae(f(d),CU):g;if(h)return I(aI(b,CV));var
+e=mH(a),f=ae(C8,e),h=f?ae(e,C9):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,h=g?ae(f(d),C_):g;if(h)return J(aJ(b,C$));var
 i=h}else
 var
 i=a;return i}function
-k5(c){var
+k8(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return ge(a[1]);case
+1:return gn(a[1]);case
 3:var
-b=k5(a[2]);if(b){var
+b=k8(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-gf(m){var
+go(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -6829,42 +7015,42 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=gK(a[2]);if(typeof
+f=gS(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=gf(a[2]);if(i){var
+i=go(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=gf(a[1]),l=k?gR(c(2,b),j):k;return l?gR(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
+j=a[2],k=go(a[1]),l=k?gZ(c(2,b),j):k;return l?gZ(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
 a=a[1];continue}}function
-e_(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-cb(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-ef(a){return y(e_,cb(a))}function
-k6(a){switch(a[0]){case
+fc(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+ce(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+eh(a){return y(fc,ce(a))}function
+k9(a){switch(a[0]){case
 0:var
-c=e_(a[4]),d=g(ef(a[3]),c),e=g(ef(a[2]),d);return g(ef(a[1]),e);case
+c=fc(a[4]),d=g(eh(a[3]),c),e=g(eh(a[2]),d);return g(eh(a[1]),e);case
 1:var
-b=a[3],f=b?ef(b[1]):b,h=g(ef(a[2]),f);return g(ef(a[1]),h);default:return ef(a[1])}}function
-CW(a){switch(a[0]){case
+b=a[3],f=b?eh(b[1]):b,h=g(eh(a[2]),f);return g(eh(a[1]),h);default:return eh(a[1])}}function
+Da(a){switch(a[0]){case
 0:var
 d=g(a[3],[0,a[4],0]),e=g(a[2],d),b=g(a[1],e);break;case
 1:var
 c=a[3],f=c?c[1]:c,h=g(a[2],f),b=g(a[1],h);break;case
 2:var
 b=a[1];break;default:var
-i=g(a[4],[0,a[5],[0,a[6],0]]),j=g(a[3],i),k=g(a[2],j),b=g(a[1],k)}return y(e_,b)}function
-qH(a){return 0===a[0]?g(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-qI(a){if(0===a[0]){var
-b=cb(a[2]);return g(cb(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-qJ(a){switch(a[0]){case
+i=g(a[4],[0,a[5],[0,a[6],0]]),j=g(a[3],i),k=g(a[2],j),b=g(a[1],k)}return y(fc,b)}function
+qV(a){return 0===a[0]?g(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+qW(a){if(0===a[0]){var
+b=ce(a[2]);return g(ce(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+qX(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
-eg(e){var
+ei(e){var
 a=e[4],h=typeof
 a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=e[3];if(c){var
 b=c[1];switch(b[0]){case
@@ -6876,70 +7062,70 @@ d=[0,b[1],[0,b[2],0]]}var
 f=d}else
 var
 f=c;return g(f,h)}function
-qK(a){if(0===a[0]){var
-b=a[5],c=b?cb(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
-d=[0,a[4],0],e=g(cb(a[3]),d);return g(cb(a[2]),e)}function
-qL(b,e){var
+qY(a){if(0===a[0]){var
+b=a[5],c=b?ce(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
+d=[0,a[4],0],e=g(ce(a[3]),d);return g(ce(a[2]),e)}function
+qZ(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
-f=c[1];return aj(function(a){return aI(f,a)},b)}return 0;case
+f=c[1];return ag(function(a){return aJ(f,a)},b)}return 0;case
 3:var
-d=qL(b,a[2]);if(d){var
+d=qZ(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-gg(c,a){return l(function(a){var
-b=gf(a);return b?qL(c,a):b},a)}function
-qM(a){if(typeof
+gp(c,a){return l(function(a){var
+b=go(a);return b?qZ(c,a):b},a)}function
+q0(a){if(typeof
 a!=="number")switch(a[0]){case
 2:return a[1];case
 3:return g(a[2],a[3])}return 0}function
-qN(a){var
-d=gR(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?gR(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
-qO(a,b){return b?[4,qO(a,b[1]),a]:a}function
+q1(a){var
+d=gZ(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?gZ(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
+q2(a,b){return b?[4,q2(a,b[1]),a]:a}function
 k(a){switch(a[0]){case
 0:var
-i=a[2],j=c(2,q(c(2,c(2,b)))),l=function(a){return D(j,a)},m=gL(mk(i),l,b);return[0,mz(ml(gK(a[1]),i)),m];case
+i=a[2],j=c(2,r(c(2,c(2,b)))),l=function(a){return E(j,a)},m=gT(mn(i),l,b);return[0,mC(mo(gS(a[1]),i)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,b,b],[0,d,b]]:[1,e[1],e[2],e[3]];case
 2:var
-f=k(a[1]);return 0===f[0]?[0,R(f[1]),f[2]]:[3,[0,d,b],f];case
+f=k(a[1]);return 0===f[0]?[0,U(f[1]),f[2]]:[3,[0,d,b],f];case
 3:var
 g=k(a[2]),h=k(a[3]);switch(a[1]){case
 0:return[2,g,h];case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=aT(fw(a[2]));return qO(k(a[1]),n);default:return[6,k(a[1])]}}function
-cc(a){if(0===a[0]){var
+n=aU(fB(a[2]));return q2(k(a[1]),n);default:return[6,k(a[1])]}}function
+cf(a){if(0===a[0]){var
 b=k(a[1]);return[0,b,b]}var
 c=k(a[2]);return[0,k(a[1]),c]}function
-eh(a){var
-b=cc(a[3]),c=cc(a[2]);return[0,cc(a[1]),c,b]}function
-CX(a){switch(a[0]){case
+ej(a){var
+b=cf(a[3]),c=cf(a[2]);return[0,cf(a[1]),c,b]}function
+Db(a){switch(a[0]){case
 0:var
-b=a[5],c=cc(a[4]),d=eh(a[3]),e=eh(a[2]);return[0,[0,eh(a[1]),e,d,c,b]];case
+b=a[5],c=cf(a[4]),d=ej(a[3]),e=ej(a[2]);return[0,[0,ej(a[1]),e,d,c,b]];case
 1:var
-f=x(eh,a[3]),g=eh(a[2]);return[1,eh(a[1]),g,f];default:return[2,eh(a[1])]}}function
-qP(a){if(0===a[0]){var
+f=x(ej,a[3]),g=ej(a[2]);return[1,ej(a[1]),g,f];default:return[2,ej(a[1])]}}function
+q3(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=k(h(a,c));return[0,k(h(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
 g=k(a[5]),i=[0,k(a[4]),g],j=k(a[3]),l=k(a[2]);return[1,k(a[1]),l,j,i]}function
-e$(a){var
+fd(a){var
 b=k(a[3]),c=k(a[2]);return[0,k(a[1]),c,b]}function
-dy(a){if(0===a[0]){var
-c=a[5],h=c?e$(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=k(a[4]),j=k(a[3]),l=k(a[2]);return[0,aT(a[1]),l,j,i,h]}var
+dC(a){if(0===a[0]){var
+c=a[5],h=c?fd(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=k(a[4]),j=k(a[3]),l=k(a[2]);return[0,aU(a[1]),l,j,i,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=e$(f),n=e$(g);return[2,k(e),n,m]}var
-o=e$(f),p=e$(g);return[1,k(e),p,o]}function
-h7(b,a){if(a){var
-c=a[1],d=a[2],f=h7(g(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return g(aZ(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:n(b[1],a[1]):0:0===a[0]?0:cI(b[1],a[1]);return I(d)},h),f)}return a}function
-CY(b){if(b[1])return 0;var
+m=fd(f),n=fd(g);return[2,k(e),n,m]}var
+o=fd(f),p=fd(g);return[1,k(e),p,o]}function
+ij(b,a){if(a){var
+c=a[1],d=a[2],f=ij(g(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return g(aW(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:m(b[1],a[1]):0:0===a[0]?0:cM(b[1],a[1]);return J(d)},h),f)}return a}function
+Dc(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,k(a[1])],0];return 0}function
-qQ(N,M,a){switch(a[1]){case
+q4(N,M,a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
 g!=="number"&&0===g[0])return[0,[1,k(g[1])],0];return 0;case
@@ -6967,8 +7153,8 @@ l==="number"||!(0===l[0]))J=1;else
 var
 T=l[1],c=function(a){return[6,a,k(T)]};if(J)return 0;break;case
 5:var
-m=a[4];if(typeof
-m!=="number"&&0===m[0])return[0,[7,k(m[1])],0];return 0;case
+n=a[4];if(typeof
+n!=="number"&&0===n[0])return[0,[7,k(n[1])],0];return 0;case
 6:var
 o=a[4];if(typeof
 o!=="number"&&0===o[0]){var
@@ -6994,14 +7180,14 @@ b=k(W);return[13,a,k(X),b]}}if(K)return 0;break;case
 9:var
 u=a[4];if(typeof
 u!=="number"&&0===u[0]){var
-Y=u[1],Z=h7(0,M);return e(function(h){var
+Y=u[1],Z=ij(0,M);return e(function(h){var
 e=k(Y),a=h[2],c=h[1];if(0===c[0]){var
 f=c[1];if(0===a[0]){var
-g=function(a){return a?e$(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(n(f,a[1])){var
-i=k(a[2]),j=[2,[2,k(c[2]),i],e],l=g(a[5]),m=g(c[5]);return[11,aT(f),m,l,j]}var
-o=dy(a);return[10,dy(c),o,e]}var
-p=dy(a);return[10,dy(c),p,e]}var
-q=dy(a);return[10,dy(c),q,e]},Z)}return 0;case
+g=function(a){return a?fd(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(m(f,a[1])){var
+i=k(a[2]),j=[2,[2,k(c[2]),i],e],l=g(a[5]),n=g(c[5]);return[11,aU(f),n,l,j]}var
+o=dC(a);return[10,dC(c),o,e]}var
+p=dC(a);return[10,dC(c),p,e]}var
+q=dC(a);return[10,dC(c),q,e]},Z)}return 0;case
 10:var
 v=a[4],L=0;if(typeof
 v==="number"||!(1===v[0]))L=1;else{var
@@ -7011,21 +7197,21 @@ $=x[2],aa=x[1],c=function(a){var
 b=k(_),c=k($);return[12,a,k(aa),c,b]}}if(L)return 0;break;case
 11:var
 G=typeof
-a[4]==="number"?1:0,ab=G?CZ:G;return ab;case
+a[4]==="number"?1:0,ab=G?Dd:G;return ab;case
 12:var
 y=a[4];if(typeof
 y!=="number"&&1===y[0]){var
 z=a[3];if(z){var
 H=z[1];if(0===H[0]){var
 ac=k(y[1]);return[0,[14,k(H[1]),ac],0]}return 0}return z}return 0;default:return 0}var
-B=a[2],P=B?[0,aT(B[1]),0]:aB(0,N);return e(c,P)}function
-C0(c,a){switch(a[1]){case
+B=a[2],P=B?[0,aU(B[1]),0]:aA(0,N);return e(c,P)}function
+De(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
 l!=="number"&&2!==l[0])return a[2]?0:a[3]?0:1;return 0;case
 1:var
-K=0,m=a[4];if(typeof
-m==="number"||2===m[0])K=1;else{var
+K=0,n=a[4];if(typeof
+n==="number"||2===n[0])K=1;else{var
 o=a[2];if(!o)return a[3]?0:1;if(a[3])return 0;var
 b=o[1]}if(K)return 0;break;case
 2:var
@@ -7052,7 +7238,7 @@ w!=="number"&&0===w[0]){if(a[2])return 0;var
 g=a[3];if(g){var
 x=g[1];switch(x[0]){case
 0:return 1;case
-1:return n(f(x[1]),c);default:var
+1:return m(f(x[1]),c);default:var
 y=0}}else
 var
 y=g;return y}return 0;case
@@ -7063,7 +7249,7 @@ z!=="number"&&0===z[0])return a[2]?0:a[3]?0:1;return 0;case
 N=0,A=a[4];if(typeof
 A==="number"||!(1===A[0]))N=1;else{var
 h=a[3];if(!h)return h;if(0!==h[1][0])return 0;var
-B=n(c,C2),O=0;if(B){var
+B=m(c,Dg),O=0;if(B){var
 C=a[2];if(C){var
 b=C[1];O=1}else
 var
@@ -7089,17 +7275,17 @@ I=H;return I;case
 12:var
 J=a[4];if(typeof
 J!=="number"&&1===J[0]){if(a[2])return 0;var
-k=a[3];return k?0===k[1][0]?n(c,C3):0:k}return 0;default:return 0}var
-p=ae(C1,b);return p?ae(b,c):p}function
-h8(c,k,j,b){var
-l=f(c),d=y(function(a){return qQ(l,j,a)},b),a=y(CY,b),h=a?[0,a[1],a[2]]:C4,i=g(h,d),m=qP(k);return[0,e(CX,c),m,i]}function
-qR(b){if(b[1])return 0;var
+k=a[3];return k?0===k[1][0]?m(c,Dh):0:k}return 0;default:return 0}var
+p=ae(Df,b);return p?ae(b,c):p}function
+ik(c,k,j,b){var
+l=f(c),d=y(function(a){return q4(l,j,a)},b),a=y(Dc,b),h=a?[0,a[1],a[2]]:Di,i=g(h,d),m=q3(k);return[0,e(Db,c),m,i]}function
+q5(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,k(a[1])],0];return 0}function
-qS(c){function
-a(a){return r(a,e(k,c),[0,d,b])}var
-f=a(C5),g=a(C6);return[0,a(0),g,f]}function
-h9(_,G,Z,a){switch(a[1]){case
+q6(c){function
+a(a){return q(a,e(k,c),[0,d,b])}var
+f=a(Dj),g=a(Dk);return[0,a(0),g,f]}function
+il(_,G,Z,a){switch(a[1]){case
 0:var
 h=a[4];if(typeof
 h!=="number"&&0===h[0])return[0,[1,k(h[1])],0];return 0;case
@@ -7108,7 +7294,7 @@ f=a[4];if(typeof
 f==="number")return 0;else
 switch(f[0]){case
 0:var
-$=f[1],c=function(a){return[2,a,k($)]};break;case
+aa=f[1],c=function(a){return[2,a,k(aa)]};break;case
 1:var
 ac=f[1],c=function(a){return[3,a,k(ac)]};break;default:var
 ad=f[2],ae=f[1],c=function(a){var
@@ -7137,7 +7323,7 @@ o!=="number"&&0===o[0]){var
 J=o[1],p=a[3];if(p){var
 q=p[1];switch(q[0]){case
 0:var
-ai=k(J);return[0,[8,ab(k(q[1]),G),ai],0];case
+ai=k(J);return[0,[8,$(k(q[1]),G),ai],0];case
 1:var
 aj=k(J);return[0,[8,e(k,q[1]),aj],0];default:var
 K=0}}else
@@ -7153,8 +7339,8 @@ b=k(ak);return[7,a,k(al),b]}}if(T)return 0;break;case
 9:var
 t=a[4];if(typeof
 t!=="number"&&0===t[0]){var
-am=t[1],an=h7(0,Z);return e(function(a){var
-b=k(am),c=dy(a[2]);return[14,dy(a[1]),c,b]},an)}return 0;case
+am=t[1],an=ij(0,Z);return e(function(a){var
+b=k(am),c=dC(a[2]);return[14,dC(a[1]),c,b]},an)}return 0;case
 10:var
 u=a[4],U=0;if(typeof
 u==="number"||!(1===u[0]))U=1;else{var
@@ -7185,26 +7371,26 @@ A==="number"||!(1===A[0]))W=1;else{var
 B=a[3],av=A[1];if(!B)return B;var
 O=B[1];if(1!==O[0])return 0;var
 aw=O[1],c=function(a){var
-b=k(av);return[13,a,0,qS(aw),b]}}if(W)return 0;break;case
+b=k(av);return[13,a,0,q6(aw),b]}}if(W)return 0;break;case
 15:var
 C=a[4],X=0;if(typeof
 C==="number"||!(1===C[0]))X=1;else{var
 D=a[3],ax=C[1];if(!D)return D;var
 P=D[1];if(1!==P[0])return 0;var
 ay=P[1],c=function(a){var
-b=k(ax);return[13,a,1,qS(ay),b]}}if(X)return 0;break;case
+b=k(ax);return[13,a,1,q6(ay),b]}}if(X)return 0;break;case
 16:var
 E=a[4],Y=0;if(typeof
 E==="number"||!(1===E[0]))Y=1;else{var
 F=a[3],az=E[1];if(!F)return F;var
 Q=F[1];if(1!==Q[0])return 0;var
-aA=Q[1],c=function(a){var
-b=k(az);return[17,a,e(k,aA),b]}}if(Y)return 0;break;default:return 0}var
-H=a[2],aa=H?[0,aT(H[1]),0]:aB(0,G);return e(c,aa)}function
-fa(e,d,c,b){var
-f=y(function(a){return h9(e,d,c,a)},b),a=y(qR,b),h=a?[0,a[1],a[2]]:C7;return g(h,f)}function
-c1(a){return 11===a[1]?1:0}function
-cz(n,m,a){var
+aB=Q[1],c=function(a){var
+b=k(az);return[17,a,e(k,aB),b]}}if(Y)return 0;break;default:return 0}var
+H=a[2],ab=H?[0,aU(H[1]),0]:aA(0,G);return e(c,ab)}function
+fe(e,d,c,b){var
+f=y(function(a){return il(e,d,c,a)},b),a=y(q5,b),h=a?[0,a[1],a[2]]:Dl;return g(h,f)}function
+c4(a){return 11===a[1]?1:0}function
+cD(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
 c=a[4];if(typeof
@@ -7214,110 +7400,110 @@ l=0,d=a[4];if(typeof
 d!=="number"&&2===d[0]){var
 e=1;l=1}if(!l)var
 e=0;var
-f=cI(n,e);if(f){var
+f=cM(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=ae(C8,h);return i?ae(h,m):i}var
+h=g[1],i=ae(Dm,h);return i?ae(h,m):i}var
 j=1}else
 var
 j=f;return j;case
 3:var
 k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
-aV(s,b,a){var
+aY(s,b,a){var
 d=a[2];if(d)var
-e=d[1],g=ae(C9,e),t=g?ae(e,b):g,c=t;else
+e=d[1],g=ae(Dn,e),t=g?ae(e,b):g,c=t;else
 var
 c=1;var
 h=a[1];if(!(9<=h))switch(h){case
 2:var
 i=a[4];if(typeof
 i!=="number"&&1===i[0]){var
-j=a[3];return j?0===j[1][0]?c:cz(0,b,a):cz(0,b,a)}return cz(0,b,a);case
+j=a[3];return j?0===j[1][0]?c:cD(0,b,a):cD(0,b,a)}return cD(0,b,a);case
 6:var
 k=a[4];if(typeof
 k!=="number"&&0===k[0]){var
 l=a[3];if(l){var
-m=l[1];switch(m[0]){case
+n=l[1];switch(n[0]){case
 0:return a[2]?0:1;case
 1:var
-o=n(f(m[1]),b);if(o){if(a[2])return 0;var
+o=m(f(n[1]),b);if(o){if(a[2])return 0;var
 p=1}else
 var
-p=o;return p;default:return cz(0,b,a)}}return cz(0,b,a)}return cz(0,b,a);case
+p=o;return p;default:return cD(0,b,a)}}return cD(0,b,a)}return cD(0,b,a);case
 8:var
 q=a[4];if(typeof
 q!=="number"&&1===q[0]){var
-r=a[3];return r?0===r[1][0]?c?n(b,s):c:cz(0,b,a):cz(0,b,a)}return cz(0,b,a)}return cz(0,b,a)}function
-aK(c,b,a){return 11===a[1]?typeof
-a[4]==="number"?a[2]?aV(c,b,a):a[3]?aV(c,b,a):1:aV(c,b,a):aV(c,b,a)}function
-qT(g,b,c,a){var
+r=a[3];return r?0===r[1][0]?c?m(b,s):c:cD(0,b,a):cD(0,b,a)}return cD(0,b,a)}return cD(0,b,a)}function
+aM(c,b,a){return 11===a[1]?typeof
+a[4]==="number"?a[2]?aY(c,b,a):a[3]?aY(c,b,a):1:aY(c,b,a):aY(c,b,a)}function
+q7(g,b,c,a){var
 h=a[2];if(h)var
-i=h[1],j=ae(C$,i),G=j?ae(i,c):j,d=G;else
+i=h[1],j=ae(Dp,i),G=j?ae(i,c):j,d=G;else
 var
 d=1;switch(a[1]){case
-1:if(a[3])return aV(an(b),c,a);if(d){var
+1:if(a[3])return aY(ap(b),c,a);if(d){var
 F=0,k=a[4];if(typeof
 k!=="number"&&2===k[0]){var
 l=1;F=1}if(!F)var
-l=0;return cI(g,l)}return d;case
+l=0;return cM(g,l)}return d;case
 4:var
-m=a[4];if(typeof
-m!=="number"&&0===m[0])return a[3]?aV(an(b),c,a):d;return aV(an(b),c,a);case
+n=a[4];if(typeof
+n!=="number"&&0===n[0])return a[3]?aY(ap(b),c,a):d;return aY(ap(b),c,a);case
 5:var
 o=a[4];if(typeof
-o!=="number"&&0===o[0]){if(a[3])return aV(an(b),c,a);var
-p=n(c,an(b));if(p){var
+o!=="number"&&0===o[0]){if(a[3])return aY(ap(b),c,a);var
+p=m(c,ap(b));if(p){var
 q=typeof
 b==="number"?1:0;if(q){if(a[2])return 0;var
 e=1}else
 var
 e=q}else
 var
-e=p;return e}return aV(an(b),c,a);case
+e=p;return e}return aY(ap(b),c,a);case
 10:var
 r=a[4];if(typeof
 r!=="number"&&1===r[0]){var
-s=a[3];return s?2===s[1][0]?d:aV(an(b),c,a):aV(an(b),c,a)}return aV(an(b),c,a);case
+s=a[3];return s?2===s[1][0]?d:aY(ap(b),c,a):aY(ap(b),c,a)}return aY(ap(b),c,a);case
 12:var
 t=a[4];if(typeof
 t!=="number"&&1===t[0]){var
 u=a[3];if(u){var
-v=u[1],w=n(c,an(b));return w?typeof
-b==="number"?a[2]?0:0===v[0]?1:0:a[2]?0:3===v[0]?1:0:w}return aV(an(b),c,a)}return aV(an(b),c,a);case
+v=u[1],w=m(c,ap(b));return w?typeof
+b==="number"?a[2]?0:0===v[0]?1:0:a[2]?0:3===v[0]?1:0:w}return aY(ap(b),c,a)}return aY(ap(b),c,a);case
 13:var
 x=a[4];if(typeof
-x!=="number"&&1===x[0])return a[3]?aV(an(b),c,a):d?I(g):d;return aV(an(b),c,a);case
+x!=="number"&&1===x[0])return a[3]?aY(ap(b),c,a):d?J(g):d;return aY(ap(b),c,a);case
 16:var
 y=a[4];if(typeof
 y!=="number"&&1===y[0]){var
 z=a[3];if(z){var
 A=z[1];if(1===A[0]){var
-B=d?n(c,an(b)):d,C=B?n(f(A[1]),c):B;if(C)var
+B=d?m(c,ap(b)):d,C=B?m(f(A[1]),c):B;if(C)var
 D=typeof
 b==="number"?1:0,E=D?1:D;else
 var
-E=C;return E}return aV(an(b),c,a)}return aV(an(b),c,a)}return aV(an(b),c,a);default:return aV(an(b),c,a)}}function
-dz(a){switch(a[0]){case
+E=C;return E}return aY(ap(b),c,a)}return aY(ap(b),c,a)}return aY(ap(b),c,a);default:return aY(ap(b),c,a)}}function
+dD(a){switch(a[0]){case
 0:return[0,k([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,dz(a[1])];case
+2:return[2,dD(a[1])];case
 3:var
-b=dz(a[2]),c=dz(a[3]);switch(a[1]){case
+b=dD(a[2]),c=dD(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,dz(a[1]),d];default:return[8,dz(a[1])]}}function
-k7(i,h,g,b,d,c,a){var
-j=aj(c1,a),l=fa(0,f(b),0,a),m=V(d,c),n=e(function(a){var
-b=k(a[2]);return[0,k(a[1]),b]},m),o=e(function(a){return 0===a[0]?[0,e(dz,a[1])]:[1,dz(a[1])]},b),p=e(function(a){var
-b=dz(a[2]);return[0,a[1],b]},g);return[0,[0,i,e(function(a){var
-b=cc(a[2]);return[0,a[1],b]},h),p,o],n,l,j]}function
-k8(c){function
+d=a[2];return[7,dD(a[1]),d];default:return[8,dD(a[1])]}}function
+k_(i,h,g,b,d,c,a){var
+j=ag(c4,a),l=fe(0,f(b),0,a),m=N(d,c),n=e(function(a){var
+b=k(a[2]);return[0,k(a[1]),b]},m),o=e(function(a){return 0===a[0]?[0,e(dD,a[1])]:[1,dD(a[1])]},b),p=e(function(a){var
+b=dD(a[2]);return[0,a[1],b]},g);return[0,[0,i,e(function(a){var
+b=cf(a[2]);return[0,a[1],b]},h),p,o],n,l,j]}function
+k$(c){function
 a(e){var
-a=[0,d,b];return r(e,c,[0,a,a])}var
-e=a(Da),f=a(Db);return[0,a(0),f,e]}function
-ei(a){function
+a=[0,d,b];return q(e,c,[0,a,a])}var
+e=a(Dq),f=a(Dr);return[0,a(0),f,e]}function
+ek(a){function
 b(a){var
 b=k(a[2]);return[0,k(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
@@ -7325,19 +7511,19 @@ b=k(a[2]);return[0,k(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,k(a[1])];default:var
 e=k(a[2]);return[3,k(a[1]),e]}}function
-qU(a){if(0===a[0]){var
-b=V(a[1],a[2]);return[0,k8(e(function(a){var
-b=k(a[2]);return[0,k(a[1]),b]},b))]}return qP([1,a[1],a[2],a[3],a[4],a[5]])}function
-qV(j,b,i,h,g,d,a){function
-c(a){return k8(e(cc,a))}var
-l=aj(c1,a),m=fa(0,f(b),d,a),n=ei(g),o=qU(h),p=k(i);return[0,j,e(function(a){var
+q8(a){if(0===a[0]){var
+b=N(a[1],a[2]);return[0,k$(e(function(a){var
+b=k(a[2]);return[0,k(a[1]),b]},b))]}return q3([1,a[1],a[2],a[3],a[4],a[5]])}function
+q9(j,b,i,h,g,d,a){function
+c(a){return k$(e(cf,a))}var
+l=ag(c4,a),m=fe(0,f(b),d,a),n=ek(g),o=q8(h),p=k(i);return[0,j,e(function(a){var
 b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,l]}function
-ej(a){return aj(function(a){return 3===a[0]?1:0},a)}function
-k9(j,a,g,i,h,c){var
-l=aj(c1,c),m=f(a),n=fa(ej(a),m,0,c),o=x(ei,h),p=qU(i),q=g?k(g[1]):[0,b,b];return[0,j,e(function(a){function
-c(a){return k8(e(cc,a))}switch(a[0]){case
+el(a){return ag(function(a){return 3===a[0]?1:0},a)}function
+la(j,a,g,i,h,c){var
+l=ag(c4,c),m=f(a),n=fe(el(a),m,0,c),o=x(ek,h),p=q8(i),q=g?k(g[1]):[0,b,b];return[0,j,e(function(a){function
+c(a){return k$(e(cf,a))}switch(a[0]){case
 0:var
-k=a[5],l=cc(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
+k=a[5],l=cf(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
 1:var
 o=x(c,a[3]),p=c(a[2]);return[0,[1,c(a[1]),p,o]];case
 2:return[0,[2,c(a[1])]];default:var
@@ -7345,21 +7531,21 @@ f=a[1];if(f)var
 g=c(f);else
 var
 h=[0,b,b],i=[0,d,b],j=[0,d,b],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
-q=a[7],r=cc(a[6]),s=cc(a[5]),t=c(a[4]),u=c(a[3]);return[1,[0,g,c(a[2]),u,t,s,r,q]]}},a),q,p,o,n,l]}function
-cd(c){var
+q=a[7],r=cf(a[6]),s=cf(a[5]),t=c(a[4]),u=c(a[3]);return[1,[0,g,c(a[2]),u,t,s,r,q]]}},a),q,p,o,n,l]}function
+cg(c){var
 a=c[1];if(13!==a){var
 b=16<=a?1:0;if(!b)return b}return 1}function
-k_(a){function
+lb(a){function
 b(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}switch(a[0]){case
 0:var
 c=a[5],d=a[4],e=b(a[3]),f=b(a[2]);return[0,b(a[1]),f,e,d,c];case
 1:var
 g=x(b,a[3]),h=b(a[2]);return[1,b(a[1]),h,g];default:return[2,b(a[1])]}}function
-k$(a){if(0===a[0]){var
+lc(a){if(0===a[0]){var
 b=a[2],c=a[1];return[0,[0,c[1],[0,c[2],[0,c[3],0]]],[0,b[1],[0,b[2],[0,b[3],0]]]]}return[1,a[1],a[2],a[3],a[4],a[5]]}function
-qW(a){return a[1]?0:1}function
-qX(l){var
-b=aZ(qW,l);if(b){var
+q_(a){return a[1]?0:1}function
+q$(l){var
+b=aW(q_,l);if(b){var
 d=b[1];if(d[2])return 0;if(d[3])return 0;var
 c=d[4],a=b[2];if(typeof
 c!=="number")switch(c[0]){case
@@ -7380,69 +7566,69 @@ k=a;return k}var
 i=0}else
 var
 i=b;return i}function
-qY(a){var
-c=qW(a);if(c)return c;if(1===a[1]){var
+ra(a){var
+c=q_(a);if(c)return c;if(1===a[1]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return 1;return 0}return 0}function
-h_(i,h,b){function
+im(i,h,b){function
 c(b,a){return[3,1,b,a]}function
 a(b,a){return[3,3,b,a]}function
 d(b,a){return[3,2,b,a]}function
 e(b,a){return[3,0,b,a]}var
-f=c(h$,a(h$,b)),j=a(f,la),k=i?f:a(c(b,h$),la);function
-g(b){return a(b,[5,e(h$,d(la,d(b,b)))])}var
+f=c(io,a(io,b)),j=a(f,ld),k=i?f:a(c(b,io),ld);function
+g(b){return a(b,[5,e(io,d(ld,d(b,b)))])}var
 l=g(k);return a(h,e(g(j),l))}function
-ia(f,e,d){function
+ip(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,lb,a(lb,d)],qZ),g=a(c,[5,[3,0,lb,b(qZ,b(c,c))]]);return[2,b(h_(f,e,d),g)]}function
-lc(e,g,a){function
+c=a([3,1,le,a(le,d)],rb),g=a(c,[5,[3,0,le,b(rb,b(c,c))]]);return[2,b(im(f,e,d),g)]}function
+lf(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
-h=f(ib,b(ib,a)),d=e?h:b(f(a,ib),q0),i=b(d,[5,[3,0,ib,c(q0,c(d,d))]]);return c(h_(e,g,a),i)}function
-q1(c,g,b,a){function
+h=f(iq,b(iq,a)),d=e?h:b(f(a,iq),rc),i=b(d,[5,[3,0,iq,c(rc,c(d,d))]]);return c(im(e,g,a),i)}function
+rd(c,g,b,a){function
 d(b,a){return e(function(c){var
-d=n(b,c)?a:Dc;return[0,d]},De)}return e(function(e){var
-j=[0,h_(c,b,a)],i=1,k=d(e,[2,g]);function
+d=m(b,c)?a:Ds;return[0,d]},Du)}return e(function(e){var
+j=[0,im(c,b,a)],i=1,k=d(e,[2,g]);function
 f(b,a){return[3,1,b,a]}var
-h=h_(c,b,a),l=d(e,f(f(ia(c,b,a),g),h));return[0,d(e,Dd),l,k,j,i]},Df)}function
-q2(c,b,a){var
-d=[0,lc(c,b,a),0],e=[0,lc(c,b,a),d],f=[0,lc(c,b,a),e],g=[0,ia(c,b,a),0],h=[0,ia(c,b,a),g];return[0,[0,ia(c,b,a),h],f]}function
-q3(o,e,a){if(e)if(a){var
-g=e[1],h=a[1],j=cR(k(g[2][1]));if(j){var
-l=j[1],m=cR(k(g[2][2]));if(m)var
+h=im(c,b,a),l=d(e,f(f(ip(c,b,a),g),h));return[0,d(e,Dt),l,k,j,i]},Dv)}function
+re(c,b,a){var
+d=[0,lf(c,b,a),0],e=[0,lf(c,b,a),d],f=[0,lf(c,b,a),e],g=[0,ip(c,b,a),0],h=[0,ip(c,b,a),g];return[0,[0,ip(c,b,a),h],f]}function
+rf(o,e,a){if(e)if(a){var
+g=e[1],h=a[1],j=cU(k(g[2][1]));if(j){var
+l=j[1],m=cU(k(g[2][2]));if(m)var
 p=m[1],n=function(a){function
 d(a){return c(2,a)}var
-e=[0,a,gL(h[2],d,b)];return dL(l,a_(dM(p,l),e))},q=n(G(h[1],b)),f=[0,n(h[1]),q];else
+e=[0,a,gT(h[2],d,b)];return dP(l,bb(dQ(p,l),e))},q=n(G(h[1],b)),f=[0,n(h[1]),q];else
 var
 f=[0,[0,d,b],[0,d,b]]}else
 var
 f=[0,[0,d,b],[0,d,b]];var
-r=q3([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+r=rf([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 i=a;else
 var
 i=e;return i}function
-aA(b,a){switch(a[0]){case
+aC(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=mB(function(a){return aI(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
-2:return[2,aA(b,a[1])];case
+e=c[1],d=mE(function(a){return aJ(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+2:return[2,aC(b,a[1])];case
 3:var
-f=aA(b,a[3]),g=aA(b,a[2]);return[3,a[1],g,f];case
+f=aC(b,a[3]),g=aC(b,a[2]);return[3,a[1],g,f];case
 4:var
-h=a[2];return[4,aA(b,a[1]),h];default:return[5,aA(b,a[1])]}}function
-q4(b,a){if(0===a[0])return[0,aA(b,a[1])];var
-c=aA(b,a[2]);return[1,aA(b,a[1]),c]}function
-ld(b,a){var
+h=a[2];return[4,aC(b,a[1]),h];default:return[5,aC(b,a[1])]}}function
+rg(b,a){if(0===a[0])return[0,aC(b,a[1])];var
+c=aC(b,a[2]);return[1,aC(b,a[1]),c]}function
+lg(b,a){var
 c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]}function
-le(c,a){if(c)if(a){var
+lh(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=le(h,g);if(e){var
-i=e[1],f=le(h,i[2]);if(f)var
+e=lh(h,g);if(e){var
+i=e[1],f=lh(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -7454,104 +7640,110 @@ var
 d=a;else
 var
 d=c;return d}function
-lf(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,lf(g,f[1],h)];var
-j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,G(D(c(2,b),l),k),j],h]}else
+li(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,li(g,f[1],h)];var
+j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,G(E(c(2,b),l),k),j],h]}else
 var
 i=a;return i}function
-Dg(a){if(typeof
+Dw(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-Dh(a){if(typeof
+Dx(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-ic(e,a){if(0===a[0]){var
-f=[0,b,c(2,b)],g=ic(e,a[3]);return a_(dL(ic(e,a[2]),g),f)}return h(e,a[1])?[0,b,b]:[0,d,b]}function
-q5(a){return 0===a[0]?eU(a[1][4]):0}function
-q6(a){switch(a[0]){case
+ir(e,a){if(0===a[0]){var
+f=[0,b,c(2,b)],g=ir(e,a[3]);return bb(dP(ir(e,a[2]),g),f)}return h(e,a[1])?[0,b,b]:[0,d,b]}function
+rh(a){return 0===a[0]?eY(a[1][4]):0}function
+ri(a){switch(a[0]){case
 0:var
-b=a[1],c=bj(b[3]);return g(bj(b[2]),c);case
+b=a[1],c=bk(b[3]);return g(bk(b[2]),c);case
 1:var
-d=bj(a[2]);return g(bj(a[1]),d);default:return 0}}function
-id(a){switch(a[0]){case
-0:return bR(bj(a[1][1]));case
+d=bk(a[2]);return g(bk(a[1]),d);default:return 0}}function
+is(a){switch(a[0]){case
+0:return bU(bk(a[1][1]));case
 1:var
-b=a[3];return b?bR(bj(b[1])):d;default:return bR(bj(a[1]))}}function
-ie(c){var
-a=y(q5,c),d=a?[0,a[1],a[2]]:y(q6,c);return G(b,bR(d))}function
-q7(d,c){if(d){if(c){var
-a=c[1],e=d[1],f=q7(d[2],c[2]);if(f){var
+b=a[3];return b?bU(bk(b[1])):d;default:return bU(bk(a[1]))}}function
+it(c){var
+a=y(rh,c),d=a?[0,a[1],a[2]]:y(ri,c);return G(b,bU(d))}function
+rj(d,c){if(d){if(c){var
+a=c[1],e=d[1],f=rj(d[2],c[2]);if(f){var
 i=f[1],j=i[1],g=j[2],k=j[1],l=i[2];if(45===a)var
-b=Di;else
+b=Dy;else
 if(43===a)var
-b=Dj;else
+b=Dz;else
 if(48===a)var
-b=Dk;else
+b=DA;else
 if(60===a)var
-b=Dl;else
+b=DB;else
 if(62===a)var
-b=Dm;else
+b=DC;else
 var
-h=61===a?1:0,q=h?Dn:h,b=q;if(b){var
+h=61===a?1:0,q=h?DD:h,b=q;if(b){var
 m=b[1],r=m[2]?[0,e,g]:g;return[0,[0,[0,[0,[0,e,m[1]],k],r],l]]}var
 n=49===a?1:0,s=n?[0,[0,[0,k,g],[0,e,l]]]:n,o=s}else
 var
 o=f;var
 p=o}else
 var
-p=c;return p}return c?0:Do}function
-dA(b,c,a){switch(a[0]){case
+p=c;return p}return c?0:DE}function
+dE(b,c,a){switch(a[0]){case
 0:var
-d=a[1];if(aI(d,Dp))return Dq;if(aI(d,Dr))return Ds;if(aI(d,Dt))return Du;if(aI(d,Dv))return Dw;if(aI(d,Dx))return Dy;var
-n=aI(d,Dz),D=n?DA:n;return D;case
+g=a[1];if(aJ(g,DF))return DG;if(aJ(g,DH))return DI;if(aJ(g,DJ))return DK;if(aJ(g,DL))return DM;if(aJ(g,DN))return DO;var
+u=aJ(g,DP),P=u?DQ:u;return P;case
 1:var
-e=a[3],f=a[2],g=a[1];if(aI(g,DB))return[0,[0,e,f]];if(aI(g,DC))return[0,[1,e,f]];if(aI(g,DD))return[0,[2,e,f]];var
-o=aI(g,DE),E=o?[0,[8,e,f]]:o;return E;case
+h=a[3],i=a[2],j=a[1];if(aJ(j,DR))return[0,[0,h,i]];if(aJ(j,DS))return[0,[1,h,i]];if(aJ(j,DT))return[0,[2,h,i]];var
+v=aJ(j,DU),Q=v?[0,[8,h,i]]:v;return Q;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3],a[4]]];case
 5:var
-h=dA(b,c,a[1]),F=h?[0,[5,h[1],a[2],a[3]]]:h;return F;case
+n=dE(b,c,a[1]),R=n?[0,[5,n[1],a[2],a[3]]]:n;return R;case
 6:var
-i=dA(b,c,a[1]),G=i?[0,[7,i[1],a[2],a[3]]]:i;return G;case
+o=dE(b,c,a[1]),S=o?[0,[7,o[1],a[2],a[3]]]:o;return S;case
 7:var
-H=dA(b,c,a[1]);return x(function(a){return[6,a]},H);case
+T=dE(b,c,a[1]);return x(function(a){return[6,a]},T);case
 8:if(b){var
-p=a[3],q=a[2],j=dA(b,c,a[1]);if(j){var
-r=j[1],k=q7(b,iZ(iY(aE(q),function(a){return bd(q,a)})));if(k){var
-s=k[1],t=s[1],u=t[2],v=t[1],w=s[2];if(w)return[0,[11,c,w,[10,r,v,u,p]]];var
-y=[0,[10,r,v,u,p]]}else
+w=a[3],y=a[2],p=dE(b,c,a[1]);if(p){var
+z=p[1],q=rj(b,ja(i$(aG(y),function(a){return be(y,a)})));if(q){var
+A=q[1],B=A[1],C=B[2],D=B[1],E=A[2];if(E)return[0,[11,c,E,[10,z,D,C,w]]];var
+F=[0,[10,z,D,C,w]]}else
 var
-y=k;var
-z=y}else
+F=q;var
+G=F}else
 var
-z=j;var
-A=z}else
+G=p;var
+I=G}else
 var
-A=b;return A;case
+I=b;return I;case
 9:var
-B=function(a){if(a){var
-f=a[1],d=dA(b,c,f[2]);if(d)var
-e=B(a[2]),h=e?[0,[0,[0,f[1],d[1]],e[1]]]:e,g=h;else
+K=function(a){if(a){var
+f=a[1],d=dE(b,c,f[2]);if(d)var
+e=K(a[2]),h=e?[0,[0,[0,f[1],d[1]],e[1]]]:e,g=h;else
 var
-g=d;return g}return DF},I=B(a[1]);return x(function(a){return[12,a]},I);default:var
-l=dA(b,c,a[3]);if(l)var
-m=dA(b,c,a[4]),J=m?[0,[13,a[2],a[1],l[1],m[1]]]:m,C=J;else
+g=d;return g}return DV},U=K(a[1]);return x(function(a){return[12,a]},U);default:var
+L=a[3],t=l(function(a){var
+c=f(b);return m(f(a),c)},L),k=t?[0,e(function(a){var
+c=N(b,a);return aW(function(a){return J(H(a[2],d))},c)},L)]:t;if(k){var
+r=dE(b,c,a[4]);if(r)var
+s=dE(b,c,a[5]),V=s?[0,[13,a[2],a[1],k[1],r[1],s[1]]]:s,M=V;else
 var
-C=l;return C}}function
-q8(e,d,a){if(a){var
-f=a[1],b=dA(e,d,f[2]);if(b)var
-c=q8(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
+M=r;var
+O=M}else
 var
-g=b;return g}return DG}function
-ek(b,g,f,e,d,a){if(d)if(a){var
+O=k;return O}}function
+rk(e,d,a){if(a){var
+f=a[1],b=dE(e,d,f[2]);if(b)var
+c=rk(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
+var
+g=b;return g}return DW}function
+em(b,g,f,e,d,a){if(d)if(a){var
 c=a[1];if(c[3])return 0;if(c[4])return 0;var
-n=c[2],o=a[2],p=d[1],h=q8(f,e,c[1]);if(h){var
+n=c[2],o=a[2],p=d[1],h=rk(f,e,c[1]);if(h){var
 i=h[1];if(n){var
-j=ek(b,g,f,e,p,o);if(j){var
-q=j[1],k=ek(b,g,f,e,p,q[2]);if(k){var
+j=em(b,g,f,e,p,o);if(j){var
+q=j[1],k=em(b,g,f,e,p,q[2]);if(k){var
 r=k[1],s=r[1],t=q[1],l=n[1],z=r[2];if(aF(l,b))var
 u=[0,[1,i,l,t,s]];else
 var
-y=E(g,dJ(l,b)),u=x(function(a){return[2,i,a,t,s]},y);return x(function(a){return[0,a,z]},u)}var
+y=F(g,dN(l,b)),u=x(function(a){return[2,i,a,t,s]},y);return x(function(a){return[0,a,z]},u)}var
 v=k}else
 var
 v=j;return v}var
@@ -7563,67 +7755,67 @@ var
 m=a;else
 var
 m=d;return m}function
-lg(i,h,g,e,d,a){if(d){if(a){var
-b=ek(i,h,g,e,f(a),a);if(b)var
-j=b[1],c=lg(i,h,g,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
+lj(i,h,g,e,d,a){if(d){if(a){var
+b=em(i,h,g,e,f(a),a);if(b)var
+j=b[1],c=lj(i,h,g,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
 var
-k=b;return k}return DH}return a?0:DI}function
-q9(a){if(typeof
-a==="number")return 0===a?DJ:DK;else
+k=b;return k}return DX}return a?0:DY}function
+rl(a){if(typeof
+a==="number")return 0===a?DZ:D0;else
 switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return[0,[1,a[1],a[2]]];default:return 0}}function
-lh(e,d,a){if(d)if(a){var
+lk(e,d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 j=b[4],c=b[3],k=b[2],l=a[2],m=d[1];if(k){if(c)return 0;if(j)return 0;var
-f=k[1],g=lh(e,m,l);if(g){var
-n=g[1],o=n[1],h=lh(e,m,n[2]);if(h){var
-p=h[1],q=p[2],r=p[1];if(aF(f,DL))return[0,[0,[1,f,o,r],q]];var
-t=E(e,dJ(f,DM));return x(function(a){return[0,[2,a,o,r],q]},t)}var
+f=k[1],g=lk(e,m,l);if(g){var
+n=g[1],o=n[1],h=lk(e,m,n[2]);if(h){var
+p=h[1],q=p[2],r=p[1];if(aF(f,D1))return[0,[0,[1,f,o,r],q]];var
+t=F(e,dN(f,D2));return x(function(a){return[0,[2,a,o,r],q]},t)}var
 s=h}else
 var
 s=g;return s}if(c){var
-u=q9(c[1]);return x(function(a){return[0,[0,j,a],l]},u)}var
+u=rl(c[1]);return x(function(a){return[0,[0,j,a],l]},u)}var
 i=c}else
 var
 i=a;else
 var
 i=d;return i}function
-dB(b,a){return 0===b[0]?[0,k(b[1]),a]:a?[0,a[1],a[2]]:[0,k(b[1]),0]}function
-el(a,e){var
-b=dB(a[1],e),c=dB(a[2],b[2]),d=dB(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-q_(d,c){if(d){var
+dF(b,a){return 0===b[0]?[0,k(b[1]),a]:a?[0,a[1],a[2]]:[0,k(b[1]),0]}function
+en(a,e){var
+b=dF(a[1],e),c=dF(a[2],b[2]),d=dF(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+rm(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=el(a[1],c),f=el(a[2],e[2]),g=el(a[3],f[2]),h=dB(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=en(a[1],c),f=en(a[2],e[2]),g=en(a[3],f[2]),h=dF(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=el(a[1],c),k=j[1],l=el(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=el(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=en(a[1],c),k=j[1],l=en(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=en(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=el(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=q_(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-gh(t,g){var
+p=en(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=rm(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+gq(t,g){var
 u=t[3];if(typeof
-g==="number")return 0===g?DQ:DR;else
+g==="number")return 0===g?D6:D7;else
 switch(g[0]){case
 0:var
-v=g[2],h=g[1],B=E(u,h);if(B){var
+v=g[2],h=g[1],B=F(u,h);if(B){var
 ab=0,C=B[1];if(typeof
 C==="number"||!(13===C[0]))ab=1;else
 var
-y=t[1],A=ie(y),a=e(function(a){var
-g=f(y);if(n(f(a),g)){var
-h=V(y,a);return e(function(a){var
-e=a[2],f=F(d,A),g=2===a[1][0]?1:0;return cI(g,f)?D(e,cj(c(2,b),cG(A))):e},h)}return a},v);if(ab)var
+y=t[1],A=it(y),a=e(function(a){var
+g=f(y);if(m(f(a),g)){var
+h=N(y,a);return e(function(a){var
+e=a[2],f=D(d,A),g=2===a[1][0]?1:0;return cM(g,f)?E(e,cm(c(2,b),cK(A))):e},h)}return a},v);if(ab)var
 a=v}else
 var
 a=v;var
-ac=E(u,h),ad=t[1],w=x(function(b){if(typeof
+ac=F(u,h),ad=t[1],w=x(function(b){if(typeof
 b!=="number")switch(b[0]){case
-5:return DO;case
+5:return D4;case
 12:var
-a=E(ad,b[1]);if(a){if(2===a[1][0])return DP;var
+a=F(ad,b[1]);if(a){if(2===a[1][0])return D5;var
 c=0}else
 var
 c=a;return c;case
@@ -7632,17 +7824,17 @@ c=a;return c;case
 4:case
 6:case
 7:case
-11:return 0}return DN},ac);if(w){var
+11:return 0}return D3},ac);if(w){var
 G=w[1];if(G){var
 H=G[1];if(H){if(H[1])return 0;if(a){var
 i=a[1];if(i){var
 j=i[2];if(j){var
 k=j[2];if(k){if(k[2])return 0;var
 l=a[2];if(l){var
-m=l[1];if(m){var
-o=m[2];if(o){var
+n=l[1];if(n){var
+o=n[2];if(o){var
 p=o[2];if(p){if(p[2])return 0;if(l[2])return 0;var
-I=[0,[0,h,[0,[0,i[1],j[1]],k[1]],[0,[0,m[1],o[1]],p[1]]]]}else
+I=[0,[0,h,[0,[0,i[1],j[1]],k[1]],[0,[0,n[1],o[1]],p[1]]]]}else
 var
 I=p;var
 J=I}else
@@ -7650,32 +7842,32 @@ var
 J=o;var
 K=J}else
 var
-K=m;var
+K=n;var
 L=K}else
 var
 L=l;var
 M=L}else
 var
 M=k;var
-N=M}else
+O=M}else
 var
-N=j;var
-O=N}else
-var
-O=i;var
+O=j;var
 P=O}else
 var
-P=a;return P}if(a){var
+P=i;var
+Q=P}else
+var
+Q=a;return Q}if(a){var
 q=a[1];if(q){var
 r=q[2];if(r){var
 s=r[2];if(s){if(s[2])return 0;if(a[2])return 0;var
-Q=s[1],R=r[1],S=q[1],T=[0,[0,h,[0,[0,S,R],Q],[0,[0,S,R],Q]]]}else
+R=s[1],S=r[1],T=q[1],U=[0,[0,h,[0,[0,T,S],R],[0,[0,T,S],R]]]}else
 var
-T=s;var
-U=T}else
+U=s;var
+V=U}else
 var
-U=r;var
-W=U}else
+V=r;var
+W=V}else
 var
 W=q;var
 X=W}else
@@ -7685,34 +7877,34 @@ Y=[0,[0,d,d],d],Z=[0,[0,h,Y,Y]]}else
 var
 Z=w;return Z;case
 1:var
-_=g[1],z=E(u,_);if(z){var
+_=g[1],z=F(u,_);if(z){var
 $=z[1];if(typeof
 $!=="number"&&1===$[0])return[0,[1,_,g[2]]];var
 aa=0}else
 var
 aa=z;return aa;default:return 0}}function
-bt(a,b){if(a){var
-c=dB(a[1],b),d=bt(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-aN(c){function
-a(a){return r(a,c,[0,d,b])}var
-e=a(DS),f=a(DT);return[0,a(0),f,e]}function
-q$(a,b){if(a){var
-c=a[1],d=bt(c[1],b),e=bt(c[2],d[2]),f=q$(a[2],e[2]),g=f[2],h=f[1],i=aN(e[1]);return[0,[0,[0,aN(d[1]),i],h],g]}return[0,0,b]}function
-li(f,e){if(f){var
+bu(a,b){if(a){var
+c=dF(a[1],b),d=bu(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+aP(c){function
+a(a){return q(a,c,[0,d,b])}var
+e=a(D8),f=a(D9);return[0,a(0),f,e]}function
+rn(a,b){if(a){var
+c=a[1],d=bu(c[1],b),e=bu(c[2],d[2]),f=rn(a[2],e[2]),g=f[2],h=f[1],i=aP(e[1]);return[0,[0,[0,aP(d[1]),i],h],g]}return[0,0,b]}function
+ll(f,e){if(f){var
 a=f[1];switch(a[0]){case
 0:var
-g=bt(a[1],e),h=bt(a[2],g[2]),i=bt(a[3],h[2]),j=dB(a[4],i[2]),A=j[2],B=a[5],C=j[1],D=aN(i[1]),E=aN(h[1]),c=[0,[0,[0,aN(g[1]),E,D,C,B]],A];break;case
+g=bu(a[1],e),h=bu(a[2],g[2]),i=bu(a[3],h[2]),j=dF(a[4],i[2]),A=j[2],B=a[5],C=j[1],D=aP(i[1]),E=aP(h[1]),c=[0,[0,[0,aP(g[1]),E,D,C,B]],A];break;case
 1:var
-k=a[3],l=bt(a[1],e),m=l[1],n=bt(a[2],l[2]),o=n[2],p=n[1];if(k)var
-q=bt(k[1],o),F=q[2],G=[0,aN(q[1])],H=aN(p),c=[0,[0,[1,aN(m),H,G]],F];else
+k=a[3],l=bu(a[1],e),m=l[1],n=bu(a[2],l[2]),o=n[2],p=n[1];if(k)var
+q=bu(k[1],o),F=q[2],G=[0,aP(q[1])],H=aP(p),c=[0,[0,[1,aP(m),H,G]],F];else
 var
-I=aN(p),c=[0,[0,[1,aN(m),I,0]],o];break;case
+I=aP(p),c=[0,[0,[1,aP(m),I,0]],o];break;case
 2:var
-r=bt(a[1],e),J=r[2],c=[0,[0,[2,aN(r[1])]],J];break;default:var
-s=a[1],t=bt(s,e),u=bt(a[2],t[2]),v=bt(a[3],u[2]),w=bt(a[4],v[2]),x=dB(a[5],w[2]),y=dB(a[6],x[2]),K=s?aN(t[1]):[0,[0,d,b],[0,d,b],[0,b,b]],L=y[2],M=a[7],N=y[1],O=x[1],P=aN(w[1]),Q=aN(v[1]),c=[0,[1,[0,K,aN(u[1]),Q,P,O,N,M]],L]}var
-z=li(f[2],c[2]);return[0,[0,c[1],z[1]],z[2]]}return[0,0,e]}function
-dC(a){return m8(j,a)}function
-DU(a){if(typeof
+r=bu(a[1],e),J=r[2],c=[0,[0,[2,aP(r[1])]],J];break;default:var
+s=a[1],t=bu(s,e),u=bu(a[2],t[2]),v=bu(a[3],u[2]),w=bu(a[4],v[2]),x=dF(a[5],w[2]),y=dF(a[6],x[2]),K=s?aP(t[1]):[0,[0,d,b],[0,d,b],[0,b,b]],L=y[2],M=a[7],N=y[1],O=x[1],P=aP(w[1]),Q=aP(v[1]),c=[0,[1,[0,K,aP(u[1]),Q,P,O,N,M]],L]}var
+z=ll(f[2],c[2]);return[0,[0,c[1],z[1]],z[2]]}return[0,0,e]}function
+dG(a){return m$(j,a)}function
+D_(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 5:return i(j,1,[3,a[1],[0,b,b]]);case
@@ -7729,168 +7921,168 @@ h=i(j,0,a[1]);return h?i(j,1,a[2]):h;case
 15:var
 k=[0,a[2],a[1]],m=1;return l(function(a){return i(j,m,a)},k);case
 2:case
-3:return dC(a[2]);case
+3:return dG(a[2]);case
 4:case
 13:var
 c=i(j,1,a[2]);return c?i(j,1,a[3]):c;default:return i(j,1,a[1])}}function
-lj(a){if(typeof
+lm(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-d=a[3],e=a[2],f=i(j,1,[3,d,e]),g=f?i(j,1,[3,[2,e,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],d]):f,h=g?i(j,0,[2,e,[0,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))))),b]]):g;return h?i(j,0,[3,[0,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))))),b],d]):h;case
+d=a[3],e=a[2],f=i(j,1,[3,d,e]),g=f?i(j,1,[3,[2,e,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b]],d]):f,h=g?i(j,0,[2,e,[0,c(2,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))))),b]]):g;return h?i(j,0,[3,[0,c(2,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))))),b],d]):h;case
 5:return i(j,1,[3,a[1],[0,b,b]]);case
 8:var
 B=[0,a[2],a[1]],C=1;return l(function(a){return i(j,C,a)},B);case
 10:return i(j,1,a[2]);case
 11:var
-m=a[2],n=i(j,1,m);return n?i(j,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],m]):n;case
+m=a[2],n=i(j,1,m);return n?i(j,0,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],m]):n;case
 13:var
-o=a[4],p=pu(a[3]),r=p?i(j,1,o):p;return r?i(j,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],o]):r;case
+o=a[4],p=pI(a[3]),q=p?i(j,1,o):p;return q?i(j,0,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],o]):q;case
 14:return i(j,0,a[3]);case
 15:var
 s=i(j,0,a[2]),t=s?i(j,0,a[3]):s;return t?i(j,1,a[4]):t;case
 16:var
-u=a[3],v=i(j,0,a[1]),w=v?i(j,1,a[2]):v,x=w?i(j,0,u):w;return x?i(j,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],u]):x;case
+u=a[3],v=i(j,0,a[1]),w=v?i(j,1,a[2]):v,x=w?i(j,0,u):w;return x?i(j,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],u]):x;case
 17:var
-y=a[2],z=l(dC,y),A=z?aj(function(a){return i(j,1,[4,a,a])},y):z;return A?i(j,1,a[3]):A;case
+y=a[2],z=l(dG,y),A=z?ag(function(a){return i(j,1,[4,a,a])},y):z;return A?i(j,1,a[3]):A;case
 2:case
-3:return dC(a[2]);case
+3:return dG(a[2]);case
 6:case
 7:case
 9:var
 k=i(j,1,a[2]);return k?i(j,1,a[3]):k;default:return i(j,1,a[1])}}function
-ig(d){var
+iu(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=I(aj(function(d){return function(a){var
-h=k1(a[1]),e=aI(k1(d[1]),h);if(e)var
-i=k2(a[4]),b=aI(k2(d[4]),i);else
+b=a[2],e=a[1],c=J(ag(function(d){return function(a){var
+h=k4(a[1]),e=aJ(k4(d[1]),h);if(e)var
+i=k5(a[4]),b=aJ(k5(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
-c=a[2];return c?n(f[1],c[1]):c}if(a[2])return 0;var
+c=a[2];return c?m(f[1],c[1]):c}if(a[2])return 0;var
 g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-gi(a){if(0===a[0])return dC(k(a[1]));var
-b=a[2],c=a[1];if(!dQ(k(c))&&!dQ(k(b))){var
+gr(a){if(0===a[0])return dG(k(a[1]));var
+b=a[2],c=a[1];if(!dU(k(c))&&!dU(k(b))){var
 e=k(c);return i(j,1,[3,k(b),e])}var
-d=k(b);return bE(j,k(c),d)}function
-em(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-ra(a){switch(a[0]){case
+d=k(b);return bH(j,k(c),d)}function
+eo(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+ro(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=g(em(a[3]),c),e=g(em(a[2]),d);return g(em(a[1]),e);case
+c=[0,a[4],0],d=g(eo(a[3]),c),e=g(eo(a[2]),d);return g(eo(a[1]),e);case
 1:var
-b=a[3],f=b?em(b[1]):b,h=g(em(a[2]),f);return g(em(a[1]),h);default:return em(a[1])}}function
-rb(s,a,m){if(aj(function(a){return 9===a[1]?1:0},m)){var
-b=ae(f(a),DX),c=b?l(function(a){if(0===a[0]){var
+b=a[3],f=b?eo(b[1]):b,h=g(eo(a[2]),f);return g(eo(a[1]),h);default:return eo(a[1])}}function
+rp(s,a,m){if(ag(function(a){return 9===a[1]?1:0},m)){var
+b=ae(f(a),Eb),c=b?l(function(a){if(0===a[0]){var
 d=a[5],e=i(j,1,k(a[2])),f=e?i(j,0,k(a[3])):e,m=f?i(j,0,k(a[4])):f,c=0;if(m)if(d)var
-p=cb(d[1]),b=l(function(a){return dC(k(a))},p);else{var
+p=ce(d[1]),b=l(function(a){return dG(k(a))},p);else{var
 n=1;c=1}else{var
 n=m;c=1}if(c)var
 b=n}else{var
 o=i(j,1,k(a[4]));if(o)var
-q=cb(a[3]),r=g(cb(a[2]),q),b=l(function(a){return dC(k(a))},r);else
+q=ce(a[3]),r=g(ce(a[2]),q),b=l(function(a){return dG(k(a))},r);else
 var
 b=o}return b?h(s,a):b},a):b;if(c)var
-d=h7(0,a),n=d?1:d,e=n;else
+d=ij(0,a),n=d?1:d,e=n;else
 var
 e=c;return e}return a?0:1}function
-rc(a){return a?DY:DZ}function
-ih(a){switch(a){case
-0:return D0;case
-1:return D1;default:return 0}}function
-dD(a){var
-f=a[1],d=i(j,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],f]),e=d?bE(j,a[1],a[2]):d;if(e){var
-g=a[2];return i(j,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],g])}return e}function
-fb(a){var
-e=bE(j,[0,d,b],a);return e?i(j,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
-rd(c,b,a){if(0===a[0]){var
-d=a[2],e=a[1],g=n(f(e),c),h=g?n(f(d),c):g;if(h){var
-o=V(e,d);return l(function(a){var
-b=k(a[2]);return bE(j,k(a[1]),b)},o)}return h}var
-m=b?i(j,1,k(a[3])):b;if(m){var
-p=k(a[5]);return bE(j,k(a[4]),p)}return m}function
-re(a,e,F,E,t,s,g){function
+rq(a){return a?Ec:Ed}function
+iv(a){switch(a){case
+0:return Ee;case
+1:return Ef;default:return 0}}function
+dH(a){var
+f=a[1],d=i(j,1,[2,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],f]),e=d?bH(j,a[1],a[2]):d;if(e){var
+g=a[2];return i(j,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],g])}return e}function
+ff(a){var
+e=bH(j,[0,d,b],a);return e?i(j,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],a]):e}function
+rr(c,b,a){if(0===a[0]){var
+d=a[2],e=a[1],g=m(f(e),c),h=g?m(f(d),c):g;if(h){var
+o=N(e,d);return l(function(a){var
+b=k(a[2]);return bH(j,k(a[1]),b)},o)}return h}var
+n=b?i(j,1,k(a[3])):b;if(n){var
+p=k(a[5]);return bH(j,k(a[4]),p)}return n}function
+rs(a,e,F,E,t,s,g){function
 u(b){var
-d=rc(a),c=n(f(b),d);return c?l(gi,b):c}var
+d=rq(a),c=m(f(b),d);return c?l(gr,b):c}var
 v=l(function(a){var
 b=u(a[1]);return b?u(a[2]):b},e);if(v)var
-G=f(e),o=ae(bH(a),G);else
+G=f(e),o=ae(bK(a),G);else
 var
 o=v;var
-w=o?ae(f(e),D2):o,x=w?i(j,1,k(F)):w;if(x)var
-H=1===a?1:0,p=rd(ih(a),H,E);else
+w=o?ae(f(e),Eg):o,x=w?i(j,1,k(F)):w;if(x)var
+H=1===a?1:0,p=rr(iv(a),H,E);else
 var
 p=x;if(p)if(a){var
-d=ei(t);switch(d[0]){case
+d=ek(t);switch(d[0]){case
 0:var
 h=0;break;case
 1:var
-A=dD(d[1]),B=A?dD(d[2]):A,h=B?dD(d[3]):B;break;case
+A=dH(d[1]),B=A?dH(d[2]):A,h=B?dH(d[3]):B;break;case
 2:var
-h=fb(d[1]);break;default:var
-C=fb(d[1]),h=C?fb(d[2]):C}var
-m=h}else
+h=ff(d[1]);break;default:var
+C=ff(d[1]),h=C?ff(d[2]):C}var
+n=h}else
 var
-D=ei(t),J=0===D[0]?dD(D[1]):0,m=J;else
+D=ek(t),J=0===D[0]?dH(D[1]):0,n=J;else
 var
-m=p;if(m)var
-I=f(e),q=rb(function(a){if(0===a[0]){var
-b=a[1],c=ae(DW,b),d=c?ae(b,I):c;if(d){if(a[5])return 0;var
+n=p;if(n)var
+I=f(e),q=rp(function(a){if(0===a[0]){var
+b=a[1],c=ae(Ea,b),d=c?ae(b,I):c;if(d){if(a[5])return 0;var
 e=1}else
 var
 e=d;return e}return 1},s,g);else
 var
-q=m;if(q)var
-b=f(e),c=bH(a),y=rc(a),r=l(function(a){var
+q=n;if(q)var
+b=f(e),c=bK(a),y=rq(a),r=l(function(a){var
 e=a[2];if(e)var
-g=e[1],h=ae(C_,g),w=h?ae(g,b):h,d=w;else
+g=e[1],h=ae(Do,g),w=h?ae(g,b):h,d=w;else
 var
 d=1;switch(a[1]){case
 9:var
 i=a[4];if(typeof
-i!=="number"&&0===i[0])return a[2]?aK(c,b,a):a[3]?aK(c,b,a):1;return aK(c,b,a);case
+i!=="number"&&0===i[0])return a[2]?aM(c,b,a):a[3]?aM(c,b,a):1;return aM(c,b,a);case
 10:var
 j=a[4];if(typeof
 j!=="number"&&1===j[0]){var
-k=a[3];return k?2===k[1][0]?d:aK(c,b,a):aK(c,b,a)}return aK(c,b,a);case
+k=a[3];return k?2===k[1][0]?d:aM(c,b,a):aM(c,b,a)}return aM(c,b,a);case
 12:var
 l=a[4];if(typeof
-l!=="number"&&1===l[0]){if(a[2])return aK(c,b,a);var
-m=a[3];return m?3===m[1][0]?n(b,c):aK(c,b,a):aK(c,b,a)}return aK(c,b,a);case
+l!=="number"&&1===l[0]){if(a[2])return aM(c,b,a);var
+n=a[3];return n?3===n[1][0]?m(b,c):aM(c,b,a):aM(c,b,a)}return aM(c,b,a);case
 14:var
 o=a[4];if(typeof
 o!=="number"&&1===o[0]){var
 p=a[3];if(p){var
 q=p[1];if(1===q[0]){var
-r=n(f(q[1]),y),x=r?d:r;return x}return aK(c,b,a)}return aK(c,b,a)}return aK(c,b,a);case
+r=m(f(q[1]),y),x=r?d:r;return x}return aM(c,b,a)}return aM(c,b,a)}return aM(c,b,a);case
 15:var
 s=a[4];if(typeof
 s!=="number"&&1===s[0]){var
 t=a[3];if(t){var
 u=t[1];if(1===u[0]){var
-v=n(f(u[1]),y),z=v?d:v;return z}return aK(c,b,a)}return aK(c,b,a)}return aK(c,b,a);default:return aK(c,b,a)}},g);else
+v=m(f(u[1]),y),z=v?d:v;return z}return aM(c,b,a)}return aM(c,b,a)}return aM(c,b,a);default:return aM(c,b,a)}},g);else
 var
 r=q;var
-z=r?ig(g):r;return z?l(lj,fa(0,f(e),s,g)):z}function
-lk(a){switch(a[0]){case
+z=r?iu(g):r;return z?l(lm,fe(0,f(e),s,g)):z}function
+ln(a){switch(a[0]){case
 0:var
 c=g(a[3],[0,a[4],0]),d=g(a[2],c);return g(a[1],d);case
 1:var
 b=a[3],e=b?b[1]:b,f=g(a[2],e);return g(a[1],f);case
 2:return a[1];default:var
 h=g(a[4],[0,a[5],[0,a[6],0]]),i=g(a[3],h),j=g(a[2],i);return g(a[1],j)}}function
-ii(a,b,e,T,p,m){var
+iw(a,b,e,T,p,n){var
 q=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 c(a){var
-b=q?D3:D4;return n(f(a),b)}var
-h=ej(b),w=l(function(b){switch(b[0]){case
+b=q?Eh:Ei;return m(f(a),b)}var
+h=el(b),w=l(function(b){switch(b[0]){case
 0:var
-f=I(h),g=f?c(b[1]):f,i=g?c(b[2]):g;return i?c(b[3]):i;case
+f=J(h),g=f?c(b[1]):f,i=g?c(b[2]):g;return i?c(b[3]):i;case
 1:var
-d=b[3],j=I(h),k=j?c(b[1]):j,l=k?c(b[2]):k;if(l){var
+d=b[3],j=J(h),k=j?c(b[1]):j,l=k?c(b[2]):k;if(l){var
 m=typeof
 a==="number"?1:0;if(m){if(a)return d?0:1;if(d)return c(d[1]);var
 e=1}else
@@ -7899,50 +8091,50 @@ e=m}else
 var
 e=l;return e;case
 2:var
-n=I(h),o=n?c(b[1]):n;if(o){if(typeof
+n=J(h),o=n?c(b[1]):n;if(o){if(typeof
 a==="number"&&!a)return 1;var
 p=0}else
 var
 p=o;return p;default:var
 r=b[1],s=q?r?0:1:c(r),t=s?c(b[2]):s,u=t?c(b[3]):t;return u?c(b[4]):u}},b);if(w)var
-U=f(b),r=ae(an(a),U);else
+U=f(b),r=ae(ap(a),U);else
 var
 r=w;var
-z=r?ae(f(b),D5):r,A=z?l(gi,y(lk,b)):z;if(A){var
+z=r?ae(f(b),Ej):r,A=z?l(gr,y(ln,b)):z;if(A){var
 S=0;if(typeof
 a==="number"&&!a){var
 B=1;S=1}if(!S)var
 B=0;var
-V=q?D6:D7,s=rd(V,B,T)}else
+V=q?Ek:El,s=rr(V,B,T)}else
 var
 s=A;if(s)if(typeof
 a==="number")if(e)var
 d=0;else
 var
-W=x(ei,p)?0:1,d=W;else
+W=x(ek,p)?0:1,d=W;else
 switch(a[1]){case
 0:if(e){var
-t=x(ei,p);if(t){var
+t=x(ek,p);if(t){var
 G=t[1];if(0===G[0])var
-H=i(j,1,k(e[1])),J=H?dD(G[1]):H;else
+H=i(j,1,k(e[1])),I=H?dH(G[1]):H;else
 var
-J=0;var
-K=J}else
+I=0;var
+K=I}else
 var
 K=t;var
 d=K}else
 var
 d=e;break;case
 1:if(e){var
-u=e[1],v=x(ei,p);if(v){var
+u=e[1],v=x(ek,p);if(v){var
 g=v[1];switch(g[0]){case
 0:var
 o=0;break;case
 1:var
-M=i(j,1,k(u)),N=M?dD(g[1]):M,O=N?dD(g[2]):N,o=O?dD(g[3]):O;break;case
+M=i(j,1,k(u)),N=M?dH(g[1]):M,O=N?dH(g[2]):N,o=O?dH(g[3]):O;break;case
 2:var
-P=i(j,1,k(u)),o=P?fb(g[1]):P;break;default:var
-Q=i(j,1,k(u)),R=Q?fb(g[1]):Q,o=R?fb(g[2]):R}var
+P=i(j,1,k(u)),o=P?ff(g[1]):P;break;default:var
+Q=i(j,1,k(u)),R=Q?ff(g[1]):Q,o=R?ff(g[2]):R}var
 L=o}else
 var
 L=v;var
@@ -7953,136 +8145,136 @@ d=0}else
 var
 d=s;var
 C=d?l(function(c){var
-d=qT(h,a,f(b),c);if(d)var
+d=q7(h,a,f(b),c);if(d)var
 e=d;else{var
-g=c1(c);if(g)return aK(0,0,c);var
-e=g}return e},m):d,D=C?l(function(a){var
+g=c4(c);if(g)return aM(0,0,c);var
+e=g}return e},n):d,D=C?l(function(a){var
 e=a[1];if(4===e){var
 f=a[2];if(f)var
-c=E(b,aT(f[1])),j=c?[0,c[1],0]:c,g=j;else
+c=F(b,aU(f[1])),j=c?[0,c[1],0]:c,g=j;else
 var
 g=b;return l(function(a){switch(a[0]){case
 0:case
 3:return 1;default:return 0}},g)}if(13===e){var
 h=a[2];if(h)var
-d=E(b,aT(h[1])),k=d?[0,d[1],0]:d,i=k;else
+d=F(b,aU(h[1])),k=d?[0,d[1],0]:d,i=k;else
 var
 i=b;return l(function(a){switch(a[0]){case
 0:case
-3:return 1;default:return 0}},i)}return 1},m):C,F=D?ig(m):D;return F?l(lj,fa(h,f(b),0,m)):F}function
-D8(a){switch(a[0]){case
-0:return hw(a[1][1]);case
+3:return 1;default:return 0}},i)}return 1},n):C,E=D?iu(n):D;return E?l(lm,fe(h,f(b),0,n)):E}function
+Em(a){switch(a[0]){case
+0:return hJ(a[1][1]);case
 1:var
-b=a[3];return b?hw(b[1]):1;default:return hw(a[1])}}function
-ij(a,k,b,d){var
-e=rb(function(g){if(0===g[0]){var
-c=g[1],d=ae(DV,c);if(d){var
-b=E(a,aT(c));if(b){if(2===b[1][0])return 0;var
+b=a[3];return b?hJ(b[1]):1;default:return hJ(a[1])}}function
+ix(a,k,b,d){var
+e=rp(function(g){if(0===g[0]){var
+c=g[1],d=ae(D$,c);if(d){var
+b=F(a,aU(c));if(b){if(2===b[1][0])return 0;var
 e=1}else
 var
 e=b;var
 f=e}else
 var
-f=d;return f}return 1},k,b),g=e?l(D8,d[1]):e,h=g?ae(D9,f(a)):g;if(h)var
-m=f(a),c=l(function(a){return C0(m,a)},b);else
+f=d;return f}return 1},k,b),g=e?l(Em,d[1]):e,h=g?ae(En,f(a)):g;if(h)var
+m=f(a),c=l(function(a){return De(m,a)},b);else
 var
 c=h;var
-i=c?ig(b):c,j=i?l(gi,y(ra,a)):i;return j?l(DU,d[3]):j}function
-rf(m,k,a,j,i,b){var
-c=f(m),o=f(i),d=n(f(j),o),e=d?l(function(b){if(12===b[1]){var
+i=c?iu(b):c,j=i?l(gr,y(ro,a)):i;return j?l(D_,d[3]):j}function
+rt(n,k,a,j,i,b){var
+c=f(n),o=f(i),d=m(f(j),o),e=d?l(function(b){if(12===b[1]){var
 o=0,e=b[4];if(typeof
 e!=="number"&&1===e[0]){if(b[2])var
-k=aK(c,f(a),b);else
+k=aM(c,f(a),b);else
 var
-m=b[3],q=m?0===m[1][0]?n(c,f(a)):aK(c,f(a),b):aK(c,f(a),b),k=q;var
+n=b[3],q=n?0===n[1][0]?m(c,f(a)):aM(c,f(a),b):aM(c,f(a),b),k=q;var
 g=k;o=1}if(!o)var
-g=aK(c,f(a),b);var
+g=aM(c,f(a),b);var
 d=g}else
 var
-d=aK(c,f(a),b);if(d){var
+d=aM(c,f(a),b);if(d){var
 h=b[1]-1|0;if(!(11<h>>>0))switch(h){case
 0:var
-j=b[2],p=j?[0,aT(j[1]),0]:aB(0,f(a));return l(function(c){var
-b=E(a,c);return b?0===b[1][0]?0:1:b},p);case
+j=b[2],p=j?[0,aU(j[1]),0]:aA(0,f(a));return l(function(c){var
+b=F(a,c);return b?0===b[1][0]?0:1:b},p);case
 10:return l(function(a){return 0===a[0]?0:1},a);case
 11:return l(function(a){return 0===a[0]?0:1},a)}var
 i=1}else
 var
-i=d;return i},b):d,g=e?ig(b):e,h=g?l(function(a){return gi(a[2])},k):g;return h?l(lj,fa(0,f(a),0,b)):h}function
-rg(a){if(a){var
-b=a[1];if(c1(b))return 0;var
-c=[0,b,rg(a[2])]}else
+i=d;return i},b):d,g=e?iu(b):e,h=g?l(function(a){return gr(a[2])},k):g;return h?l(lm,fe(0,f(a),0,b)):h}function
+ru(a){if(a){var
+b=a[1];if(c4(b))return 0;var
+c=[0,b,ru(a[2])]}else
 var
 c=a;return c}function
-en(h,g,d,c,b){var
-i=rg(b),k=y(function(a){return h9(h,d,c,a)},i),l=mC(e(function(a){return fQ(j,g,a)},k)),a=y(qR,b),m=a?[0,a[1],a[2]]:D_;return N(f(m),l)}function
-ll(a){return 2<=a?D$:Ea}function
-lm(m,l,k,j,f,i){var
-g=en(m,l,k,j,f),c=q9(i);if(c){var
+ep(h,g,d,c,b){var
+i=ru(b),k=y(function(a){return il(h,d,c,a)},i),l=mF(e(function(a){return fZ(j,g,a)},k)),a=y(q5,b),m=a?[0,a[1],a[2]]:Eo;return O(f(m),l)}function
+lo(a){return 2<=a?Ep:Eq}function
+lp(n,l,k,j,f,i){var
+g=ep(n,l,k,j,f),c=rl(i);if(c){var
 a=c[1],e=0;if(typeof
 a==="number")var
 h=[0,a];else
 if(0===a[0]){var
 o=a[2],p=a[1],b=p,d=function(a){return[0,a,o]};e=1}else{var
-q=a[2],r=a[1],b=r,d=function(a){return[1,a,q]};e=1}if(e){if(!I(aj(c1,f))&&!aF(b,g))return n(b,g)?0:[0,d(aT(b))];return[0,d(b)]}}else
+q=a[2],r=a[1],b=r,d=function(a){return[1,a,q]};e=1}if(e){if(!J(ag(c4,f))&&!aF(b,g))return m(b,g)?0:[0,d(aU(b))];return[0,d(b)]}}else
 var
 h=c;return h}function
-gj(b,a){var
-c=f(aZ(function(a){return 0===a[0]?0:1},b));return n(f(a),c)}function
-ik(a){var
-b=V(aB(0,f(a)),a);return e(at,aZ(function(a){return jP(a[2])},b))}function
-rh(a){var
-b=a[1],c=e(id,a[1]);return ho(ie(a[1]),c,b)}function
-ln(a){return ik(rh(a))}function
-ri(b,a){if(a){var
-c=a[1],d=a[2],f=ri(N(b,c[1]),d),h=c[2];return g(e(function(a){return aB(N(b,a),Eb)},h),f)}return a}function
-rj(e,a){function
+gs(b,a){var
+c=f(aW(function(a){return 0===a[0]?0:1},b));return m(f(a),c)}function
+iy(a){var
+b=N(aA(0,f(a)),a);return e(as,aW(function(a){return jS(a[2])},b))}function
+rv(a){var
+b=a[1],c=e(is,a[1]);return hB(it(a[1]),c,b)}function
+lq(a){return iy(rv(a))}function
+rw(b,a){if(a){var
+c=a[1],d=a[2],f=rw(O(b,c[1]),d),h=c[2];return g(e(function(a){return aA(O(b,a),Er)},h),f)}return a}function
+rx(e,a){function
 b(f){var
-a=E(e,f);if(a){var
-b=n3(a[1]);if(b)return L(b[1],d);var
+a=F(e,f);if(a){var
+b=of(a[1]);if(b)return H(b[1],d);var
 c=1}else
 var
 c=a;return c}var
-c=ri(0,a);return aZ(function(a){return l(b,a)},c)}function
-rk(a){switch(a[0]){case
-0:return Ec;case
-1:return a[3]?Ed:Ee;default:return Ef}}function
-Eg(a){return 0===a[0]?rk(a[1]):Eh}function
-il(a){if(a){var
+c=rw(0,a);return aW(function(a){return l(b,a)},c)}function
+ry(a){switch(a[0]){case
+0:return Es;case
+1:return a[3]?Et:Eu;default:return Ev}}function
+Ew(a){return 0===a[0]?ry(a[1]):Ex}function
+iz(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
-lo(aB,Z,aA,Y,X,b,ay,W){var
-a=h8(Z,aA,Y,X),aC=f(W),aD=e(rk,a[1]),aE=rj(rh(a),aD),aF=aB?0:ln(a),B=ek(Ei,ln(a),aF,aE,aC,W);if(B){var
+lr(aA,Z,az,Y,X,b,ay,W){var
+a=ik(Z,az,Y,X),aC=f(W),aD=e(ry,a[1]),aE=rx(rv(a),aD),aF=aA?0:lq(a),B=em(Ey,lq(a),aF,aE,aC,W);if(B){var
 _=B[1];if(_[2])return 0;var
-$=ij(Z,Y,X,a);if($){var
-aG=_[1],C=e(id,a[1]),c=ie(a[1]),aH=il(ay),V=or(j,a);if(V){var
-n=ho(c,C,a[1]),i=jM(c,C,a[1],0),ad=f(a[3]),ae=N(f(n),ad),J=[0,f(n),ae],af=a[3],E=aj(function(a){if(typeof
-a!=="number"&&14===a[0])return 1;return 0},af),ag=E?y(function(a){var
-b=e(aJ,fM(n,a[4]));return[0,a[4],b]},i):E,ah=g(jO(i,c,J,a[3]),ag),ai=g(bF(nl(i)),ah),L=g(bF(fC(i)),ai),M=db(L),O=da(M),q=cP(O),P=l(function(a){var
-b=m(d);return a0(r(h(q,a),O,b),a)},L);if(P){var
-Q=aj(vD,a[3]);if(Q){var
+$=ix(Z,Y,X,a);if($){var
+aG=_[1],C=e(is,a[1]),c=it(a[1]),aH=iz(ay),V=oF(j,a);if(V){var
+m=hB(c,C,a[1]),i=jP(c,C,a[1],0),ac=f(a[3]),ae=O(f(m),ac),K=[0,f(m),ae],af=a[3],E=ag(function(a){if(typeof
+a!=="number"&&14===a[0])return 1;return 0},af),ah=E?y(function(a){var
+b=e(aK,fV(m,a[4]));return[0,a[4],b]},i):E,ai=g(jR(i,c,K,a[3]),ah),aj=g(bI(no(i)),ai),L=g(bI(fJ(i)),aj),M=dd(L),N=dc(M),r=cS(N),P=l(function(a){var
+b=n(d);return a2(q(h(r,a),N,b),a)},L);if(P){var
+Q=ag(vT,a[3]);if(Q){var
 t=C,o=a[1];for(;;){if(o){var
-p=o[1],u=bK(d,t);switch(p[0]){case
+p=o[1],u=bG(d,t);switch(p[0]){case
 0:var
-F=p[1],G=hr(b,F[1],u),D=0;if(G){var
-s=ar(b,[0,F[4],c]);if(s)var
-k=K(d,s[1][1]);else{var
+F=p[1],G=hE(b,F[1],u),D=0;if(G){var
+s=au(b,[0,F[4],c]);if(s)var
+k=I(d,s[1][1]);else{var
 H=s;D=1}}else{var
 H=G;D=1}if(D)var
 k=H;break;case
 1:var
-I=p[3],k=I?hr(b,I[1],u):1;break;default:var
-k=hr(b,p[1],u)}if(k){var
-ab=o[2],t=bC(t),o=ab;continue}var
+J=p[3],k=J?hE(b,J[1],u):1;break;default:var
+k=hE(b,p[1],u)}if(k){var
+ab=o[2],t=bx(t),o=ab;continue}var
 R=k}else
 var
 R=1;var
 v=R;break}}else
 var
 v=Q;if(v){var
-ak=a[3],al=y(function(a){return dY(c,a)},ak),am=a[3],an=g(n,g(e(function(a){return b6(c,a)},am),al)),w=ac(e(function(a){return ar(b,a)},an));if(w){var
-ao=bh(eS(a[2]),c),x=ac(e(function(a){return ar(b,a)},ao));if(x){var
-z=ac(oe(b,aH,q,n,i,c,J,a[3]));if(z){var
-S=z[1],ap=jL(S),aq=x[1],as=a[2],at=function(a){return of(b,as,c,a)},au=w[1],av=nl(i),aw=h(az(q),av),ax=fC(i);return fd(jK(b,M,h(az(q),ax),aw,0,au,S,at),aq,ap,aG)}var
+ak=a[3],al=y(function(a){return d1(c,a)},ak),am=a[3],an=g(m,g(e(function(a){return b9(c,a)},am),al)),w=ad(e(function(a){return au(b,a)},an));if(w){var
+ao=bi(eW(a[2]),c),x=ad(e(function(a){return au(b,a)},ao));if(x){var
+z=ad(os(b,aH,r,m,i,c,K,a[3]));if(z){var
+S=z[1],ap=jO(S),aq=x[1],ar=a[2],as=function(a){return ot(b,ar,c,a)},at=w[1],av=no(i),aw=h(aB(r),av),ax=fJ(i);return fi(jN(b,M,h(aB(r),ax),aw,0,at,S,as),aq,ap,aG)}var
 T=z}else
 var
 T=x;var
@@ -8097,97 +8289,97 @@ A=P;return A}return V}var
 aa=$}else
 var
 aa=B;return aa}function
-Ej(a){if(0===a[0])return q5(a[1]);var
-b=a[1],c=eU(b[6]);return g(eU(b[5]),c)}function
-Ek(a){if(0===a[0])return q6(a[1]);var
-b=a[1],c=bj(b[4]);return g(bj(b[3]),c)}function
-rl(c){var
-a=y(Ej,c),d=a?[0,a[1],a[2]]:y(Ek,c);return G(b,bR(d))}function
-El(a){if(0===a[0])return[0,id(a[1]),d];var
-b=a[1],c=bR(bj(b[2]));return[0,bR(bj(b[1])),c]}function
-lp(h,b,s,r,q,g,C,B,p){var
-a=k9(h,b,s,r,q,g),t=rl(a[2]),u=e(El,a[2]),i=ku(t,u,a[2]),D=f(p),E=rj(i,e(Eg,a[2])),F=ik(i),G=ik(i),k=ek(an(h),G,F,E,D,p);if(k){var
+Ez(a){if(0===a[0])return rh(a[1]);var
+b=a[1],c=eY(b[6]);return g(eY(b[5]),c)}function
+EA(a){if(0===a[0])return ri(a[1]);var
+b=a[1],c=bk(b[4]);return g(bk(b[3]),c)}function
+rz(c){var
+a=y(Ez,c),d=a?[0,a[1],a[2]]:y(EA,c);return G(b,bU(d))}function
+EB(a){if(0===a[0])return[0,is(a[1]),d];var
+b=a[1],c=bU(bk(b[2]));return[0,bU(bk(b[1])),c]}function
+ls(h,b,s,r,q,g,C,B,p){var
+a=la(h,b,s,r,q,g),t=rz(a[2]),u=e(EB,a[2]),i=kx(t,u,a[2]),D=f(p),E=rx(i,e(Ew,a[2])),F=iy(i),G=iy(i),k=em(ap(h),G,F,E,D,p);if(k){var
 v=k[1];if(v[2])return 0;var
-w=ii(h,b,s,r,q,g);if(w){var
-H=v[1],I=f(b),J=en(ej(b),Em,I,0,g),K=il(B),y=e(xD,a[2]),m=e1(j,a[2],y);if(m)var
-z=jU(a[4]),c=cV(j,a[4],z);else
+w=iw(h,b,s,r,q,g);if(w){var
+H=v[1],I=f(b),J=ep(el(b),EC,I,0,g),K=iz(B),y=e(xT,a[2]),m=e5(j,a[2],y);if(m)var
+z=jX(a[4]),c=cY(j,a[4],z);else
 var
 c=m;if(c){var
 n=a[5];if(n)var
-A=hF(n[1]),o=l(function(a){return f3(j,a)},A);else
+A=hS(n[1]),o=l(function(a){return ga(j,a)},A);else
 var
 o=1;var
 d=o}else
 var
-d=c;return d?xA(C,K,J,a,t,u,H):d}var
+d=c;return d?xQ(C,K,J,a,t,u,H):d}var
 x=w}else
 var
 x=k;return x}function
-lq(x,B,a0,aZ,aY,ac,bB,aX,H){var
-J=typeof
-x==="number"?x?En:Eo:ih(x[1]),N=e(k,bB),a=k9(x,B,a0,aZ,aY,ac),a1=li(B,e(k,aX));if(a1[2])return 0;var
-u=a1[1],a2=gj(y(lk,B),aX),a3=a2?ii(x,B,a0,aZ,aY,ac):a2;if(a3)var
-bC=an(x),ad=n(f(N),bC);else
+lt(x,C,a0,aZ,aY,ac,bB,aX,H){var
+I=typeof
+x==="number"?x?ED:EE:iv(x[1]),O=e(k,bB),a=la(x,C,a0,aZ,aY,ac),a1=ll(C,e(k,aX));if(a1[2])return 0;var
+u=a1[1],a2=gs(y(ln,C),aX),a3=a2?iw(x,C,a0,aZ,aY,ac):a2;if(a3)var
+bC=ap(x),ad=m(f(O),bC);else
 var
 ad=a3;if(ad){if(typeof
 H!=="number"&&2===H[0]){var
-ak=e(k,H[1]),bF=ay(J,ak),a8=aN(ao(J,ak)),bH=ay(J,N),a9=aN(ao(J,N)),ax=e1(j,a[2],u),az=ax?cV(j,a[4],a9):ax,aA=az?cV(j,a[4],a8):az,a$=aA?p_(j,a[1],a[3],a[5],u,a9,bH,a8,bF):aA;if(a$){var
-bI=an(x);return n(f(ak),bI)}return a$}var
-bD=f(B),bE=f1(x),ae=lm(ej(B),bE,bD,0,ac,H);if(ae){var
-O=ae[1],g=aN(ao(J,N)),m=ay(J,N),ba=0;if(typeof
+ak=e(k,H[1]),bF=az(I,ak),a8=aP(aq(I,ak)),bG=az(I,O),a9=aP(aq(I,O)),ax=e5(j,a[2],u),ay=ax?cY(j,a[4],a9):ax,aA=ay?cY(j,a[4],a8):ay,a_=aA?qm(j,a[1],a[3],a[5],u,a9,bG,a8,bF):aA;if(a_){var
+bH=ap(x);return m(f(ak),bH)}return a_}var
+bD=f(C),bE=f_(x),ae=lp(el(C),bE,bD,0,ac,H);if(ae){var
+P=ae[1],g=aP(aq(I,O)),n=az(I,O),a$=0;if(typeof
 H==="number"&&H){var
-af=I(ej(B));ba=1}if(!ba)var
+af=J(el(C));a$=1}if(!a$)var
 af=1;if(af){var
-au=e1(j,a[2],u),av=au?hI(j,a,g,m):au;if(av)var
-w=a[5],aw=a[3],K=a[1],bl=a[6],bc=e(function(a){if(0===a[0])var
-e=bk(w,m,g,a),c=bG(a[1],e);else
+au=e5(j,a[2],u),av=au?hV(j,a,g,n):au;if(av)var
+w=a[5],aw=a[3],K=a[1],bk=a[6],ba=e(function(a){if(0===a[0])var
+e=bl(w,n,g,a),c=bJ(a[1],e);else
 var
-d=a[1],f=j1(d,bk(w,m,g,a)),h=d[4],i=bk(w,m,g,a),j=M(function(b,a){return[2,b,a]},i,h),c=M(function(b,a){return[3,b,a]},j,f);return[0,kd(K,c,P([5,[0,b,b],aw],cu(d_(w,m,d9(a)),c)))]},u),bd=y(function(a){return kf(w,m,g,a)},u),be=function(a){var
-b=d_(w,m,a);return M(function(b,a){return[2,b,a]},g,b)},bf=0,bg=e(function(f){var
-c=bk(w,m,g,f);if(0===f[0]){var
+d=a[1],f=j4(d,bl(w,n,g,a)),h=d[4],i=bl(w,n,g,a),j=M(function(b,a){return[2,b,a]},i,h),c=M(function(b,a){return[3,b,a]},j,f);return[0,kg(K,c,S([5,[0,b,b],aw],cy(eb(w,n,ea(a)),c)))]},u),bd=y(function(a){return ki(w,n,g,a)},u),be=function(a){var
+b=eb(w,n,a);return M(function(b,a){return[2,b,a]},g,b)},bf=0,bg=e(function(f){var
+c=bl(w,n,g,f);if(0===f[0]){var
 a=f[1];switch(a[0]){case
 0:var
-i=a[4],j=a[3],k=a[2],h=a[1],n=b7(h,k,j,i,c),l=ct(a[5],n),o=P(l,aD(h)),p=d0(h,k,j,c);return[0,[0,ke(K,M(function(b,a){return[2,b,a]},p,o)),l,i]];case
+i=a[4],j=a[3],k=a[2],h=a[1],m=b_(h,k,j,i,c),l=cx(a[5],m),o=S(l,aE(h)),p=d3(h,k,j,c);return[0,[0,kh(K,M(function(b,a){return[2,b,a]},p,o)),l,i]];case
 1:var
-q=bG(a,c),r=[6,v(bG(a,c),q)];return[0,[0,ke(K,bG(a,c)),[0,d,b],r]];default:return 0}}var
-e=f[1],s=e[6],t=d2(e,c),u=j1(e,c),x=e[4],y=M(function(b,a){return[2,b,a]},c,x);return[0,[0,ke(K,M(function(b,a){return[3,b,a]},y,u)),t,s]]},u),bh=e(function(a){return e0(w,m,g,a)},u),bj=[0,e(function(a){return o9(K,aw,w,m,g,a)},u),bh,bg,bf,be,bd,bc],bm=an(a[1]),ag=jW(j,f1(a[1]),bm,bj,bl,O);else
+q=bJ(a,c),r=[6,v(bJ(a,c),q)];return[0,[0,kh(K,bJ(a,c)),[0,d,b],r]];default:return 0}}var
+e=f[1],s=e[6],t=d5(e,c),u=j4(e,c),x=e[4],y=M(function(b,a){return[2,b,a]},c,x);return[0,[0,kh(K,M(function(b,a){return[3,b,a]},y,u)),t,s]]},u),bh=e(function(a){return e4(w,n,g,a)},u),bi=[0,e(function(a){return pl(K,aw,w,n,g,a)},u),bh,bg,bf,be,bd,ba],bm=ap(a[1]),ah=jZ(j,f_(a[1]),bm,bi,bk,P);else
 var
-ag=av;if(ag)var
-ah=ag;else{if(typeof
-O!=="number"&&0===O[0]){var
-p=O[2],a6=O[1],t=a[1],aS=e1(j,a[2],u),aT=aS?hI(j,a,g,m):aS,al=0;if(aT){var
-by=a[6],Z=d1(j,f1(t),a6,by),am=0;if(Z){var
-G=Z[1][1],ap=0;if(typeof
+ah=av;if(ah)var
+ai=ah;else{if(typeof
+P!=="number"&&0===P[0]){var
+p=P[2],a6=P[1],t=a[1],aR=e5(j,a[2],u),aT=aR?hV(j,a,g,n):aR,al=0;if(aT){var
+by=a[6],Z=d4(j,f_(t),a6,by),am=0;if(Z){var
+G=Z[1][1],an=0;if(typeof
 G!=="number"&&15===G[0]){var
-_=E(u,G[1]);if(_){var
-o=_[1],$=bk(a[5],m,g,o);if(typeof
+_=F(u,G[1]);if(_){var
+o=_[1],$=bl(a[5],n,g,o);if(typeof
 t==="number")if(0===o[0])if(2===o[1][0]){var
-aq=0;if(p)if(p[2])var
+ao=0;if(p)if(p[2])var
 s=0;else{var
-aO=[0,fR(p[1]),0];aq=1}else{var
-aO=p;aq=1}if(aq)var
-s=aO}else
+aN=[0,f0(p[1]),0];ao=1}else{var
+aN=p;ao=1}if(ao)var
+s=aN}else
 if(p)var
 s=0;else{var
 aK=function(c){var
 a=[0,[0,[0,b,b],[0,d,b],[0,d,b]],[0,[0,[0,d,b],[0,b,b],[0,d,b]],[0,[0,[0,d,b],[0,d,b],[0,b,b]],0]]];return e(function(b){var
-a=cu(c,b);return[0,a[1],[0,a[2],[0,a[3],0]]]},a)},aL=typeof
+a=cy(c,b);return[0,a[1],[0,a[2],[0,a[3],0]]]},a)},aL=typeof
 t==="number"?1:0;if(aL)if(t)if(0===o[0]){var
 R=o[1],ar=0;switch(R[0]){case
 0:var
 X=R[1];ar=1;break;case
 1:var
-X=aQ(R[1],R[2],$);ar=1;break;default:var
+X=aS(R[1],R[2],$);ar=1;break;default:var
 s=0}if(ar)var
 s=[0,[0,[3,[0,d,b],X[2]],[0,X[1],0]],0]}else
 var
 s=0;else
 if(0===o[0]){var
-F=o[1];switch(F[0]){case
+E=o[1];switch(E[0]){case
 0:var
-aM=F[1],Y=d0(aM,F[2],F[3],$),bx=aK(aM),s=[0,[0,Y[1],[0,Y[2],[0,Y[3],0]]],bx];break;case
+aM=E[1],Y=d3(aM,E[2],E[3],$),bx=aK(aM),s=[0,[0,Y[1],[0,Y[2],[0,Y[3],0]]],bx];break;case
 1:var
-s=aK(aQ(F[1],F[2],$));break;default:var
+s=aK(aS(E[1],E[2],$));break;default:var
 s=0}}else
 var
 s=0;else
@@ -8195,41 +8387,41 @@ var
 s=aL}else{var
 as=0;if(p)if(p[2])var
 s=0;else{var
-aP=[0,fR(p[1]),0];as=1}else{var
-aP=p;as=1}if(as)var
-s=aP}else{var
+aO=[0,f0(p[1]),0];as=1}else{var
+aO=p;as=1}if(as)var
+s=aO}else{var
 at=0;if(p)if(p[2])var
 s=0;else{var
-aR=[0,fR(p[1]),0];at=1}else{var
-aR=p;at=1}if(at)var
-s=aR}var
-aW=G[3],aa=a[5],ab=a[3],bz=G[4],bA=G[2],S=aj(function(l){var
-T=o9(t,ab,aa,m,g,o),D=bi(l,l),E=[4,[4,bA,[6,bi(T,T)]],D],z=d_(aa,m,d9(o)),h=bk(aa,m,g,o),ax=typeof
-t==="number"?[0,[0,d,b],[0,d,b],[0,d,b]]:kJ(t[1],l),s=P([5,[0,b,b],ab],ax),S=0===o[0]?b8(o[1],h):j2(o[1],h),ay=v(s,s),az=[4,v(S,z),ay],aA=v(z,s),aB=[3,[4,v(S,s),aA],az],aE=cu(s,z);function
-p(a){return r(a,l,[0,d,b])}if(typeof
+aQ=[0,f0(p[1]),0];at=1}else{var
+aQ=p;at=1}if(at)var
+s=aQ}var
+aW=G[3],aa=a[5],ab=a[3],bz=G[4],bA=G[2],T=ag(function(l){var
+T=pl(t,ab,aa,n,g,o),D=bj(l,l),E=[4,[4,bA,[6,bj(T,T)]],D],A=eb(aa,n,ea(o)),h=bl(aa,n,g,o),ax=typeof
+t==="number"?[0,[0,d,b],[0,d,b],[0,d,b]]:kM(t[1],l),s=S([5,[0,b,b],ab],ax),R=0===o[0]?b$(o[1],h):j5(o[1],h),ay=v(s,s),az=[4,v(R,A),ay],aA=v(A,s),aB=[3,[4,v(R,s),aA],az],aC=cy(s,A);function
+p(a){return q(a,l,[0,d,b])}if(typeof
 t==="number")if(t)var
-ag=p(yk),B=[0,p(0),ag,[0,d,b]];else
+ag=p(yA),C=[0,p(0),ag,[0,d,b]];else
 var
-ah=p(yl),ai=p(ym),B=[0,p(0),ai,ah];else
+ah=p(yB),ai=p(yC),C=[0,p(0),ai,ah];else
 var
-B=kI(t[1],l);var
-a=M(function(b,a){return[2,b,a]},B,aE);if(0===o[0]){var
+C=kL(t[1],l);var
+a=M(function(b,a){return[2,b,a]},C,aC);if(0===o[0]){var
 k=o[1];switch(k[0]){case
 0:var
-L=k[3],N=k[2],x=k[1],aj=b7(x,N,L,k[4],h),u=ct(k[5],aj),O=v(d0(x,N,L,h),a),Q=v(aD(x),a),w=[2,[5,[3,v(a,a),[4,Q,Q]],u],[5,[4,O,O],[4,u,[4,u,u]]]];break;case
+L=k[3],N=k[2],x=k[1],aj=b_(x,N,L,k[4],h),u=cx(k[5],aj),O=v(d3(x,N,L,h),a),P=v(aE(x),a),w=[2,[5,[3,v(a,a),[4,P,P]],u],[5,[4,O,O],[4,u,[4,u,u]]]];break;case
 1:var
-q=aQ(k[1],k[2],h),ak=[6,v(q,q)],al=v(q,q),R=v(q,a),w=[5,[3,v(a,a),[5,[4,R,R],al]],ak];break;default:var
+r=aS(k[1],k[2],h),ak=[6,v(r,r)],al=v(r,r),Q=v(r,a),w=[5,[3,v(a,a),[5,[4,Q,Q],al]],ak];break;default:var
 w=[0,d,b]}}else
 var
-e=o[1],y=v(j2(e,h),a),am=d2(e,h),ao=[4,e[5],am],ap=fV(e,h),aq=[4,[4,e[5],[4,y,y]],ap],ar=v(eT(e),a),as=[4,j0(e,h),ar],at=v(fS(e),a),au=[3,[4,jZ(e,h),at],as],av=[4,e[5],y],aw=[4,[4,[0,c(2,b),b],av],au],w=[5,[2,[3,v(a,a),aw],aq],ao];var
-F=[4,[4,aW,aW],[2,w,aB]],G=[4,bz,D],aF=an(t),U=n(f(l),aF),V=U?i(j,1,D):U,W=V?typeof
+e=o[1],y=v(j5(e,h),a),am=d5(e,h),an=[4,e[5],am],ao=f4(e,h),aq=[4,[4,e[5],[4,y,y]],ao],ar=v(eX(e),a),as=[4,j3(e,h),ar],at=v(f1(e),a),au=[3,[4,j2(e,h),at],as],av=[4,e[5],y],aw=[4,[4,[0,c(2,b),b],av],au],w=[5,[2,[3,v(a,a),aw],aq],an];var
+F=[4,[4,aW,aW],[2,w,aB]],G=[4,bz,D],aF=ap(t),U=m(f(l),aF),V=U?i(j,1,D):U,W=V?typeof
 t==="number"?1:i(j,1,ab):V;if(W){if(0===o[0]){var
 X=i(j,1,[3,[2,E,F],G]);return X?X:i(j,1,[3,[3,E,F],G])}var
-H=aC(j,E);if(H){var
-Y=H[1],I=aC(j,F);if(I){var
-Z=I[1],J=aC(j,G);if(J){var
-K=jg(j,J[1]);if(K){var
-_=K[1],$=bQ([0,C(A(Y,Z),_)]);if(!$)return bQ([0,C(C(Y,Z),_)]);var
+H=aD(j,E);if(H){var
+Y=H[1],I=aD(j,F);if(I){var
+Z=I[1],J=aD(j,G);if(J){var
+K=js(j,J[1]);if(K){var
+_=K[1],$=bT([0,B(z(Y,Z),_)]);if(!$)return bT([0,B(B(Y,Z),_)]);var
 ac=$}else
 var
 ac=K;var
@@ -8241,135 +8433,135 @@ var
 ae=I;var
 af=ae}else
 var
-af=H;return af}return W},s);am=1;ap=1}else{var
-S=_;am=1;ap=1}}if(!ap)var
+af=H;return af}return W},s);am=1;an=1}else{var
+T=_;am=1;an=1}}if(!an)var
 aU=0}else
 var
 aU=Z;if(!am){var
 aV=aU;al=1}}else{var
 aV=aT;al=1}if(al)var
-S=aV;if(S)var
-a7=S;else{if(p){if(p[2])return 0;var
-ai=p[1],aB=a[1],Q=a[5],aE=e1(j,a[2],u),aF=aE?hI(j,a,g,m):aE;if(aF){var
-bo=a[6],T=d1(j,f1(aB),a6,bo);if(T){var
-L=T[1][1];if(typeof
+T=aV;if(T)var
+a7=T;else{if(p){if(p[2])return 0;var
+aj=p[1],aB=a[1],Q=a[5],aC=e5(j,a[2],u),aF=aC?hV(j,a,g,n):aC;if(aF){var
+bo=a[6],U=d4(j,f_(aB),a6,bo);if(U){var
+L=U[1][1];if(typeof
 L!=="number"&&16===L[0]){var
-z=L[1],bp=a[2],bq=e(function(a){return e0(Q,m,g,ql(a))},bp),aI=h(cv(cY),z);if(aI)var
-bn=h(gN(c(2,b)),cY),D=[0,bv(d,aI[1][1]),bn];else
+A=L[1],bp=a[2],bq=e(function(a){return e4(Q,n,g,qz(a))},bp),aI=h(cz(c1),A);if(aI)var
+bn=h(gV(c(2,b)),c1),D=[0,bw(d,aI[1][1]),bn];else
 var
 D=[0,d,b];var
-aJ=i(j,0,z);if(aJ)var
-br=a[2],U=l(function(a){var
-b=ql(a);if(0===b[0])return 1;var
-c=b[1],d=[1,c],e=cw(j,z),f=e?o_(j,a,d):e;return f?i(j,1,jY(c,bk(Q,m,g,d))):f},br);else
+aJ=i(j,0,A);if(aJ)var
+br=a[2],V=l(function(a){var
+b=qz(a);if(0===b[0])return 1;var
+c=b[1],d=[1,c],e=cA(j,A),f=e?pm(j,a,d):e;return f?i(j,1,j1(c,bl(Q,n,g,d))):f},br);else
 var
-U=aJ;if(U)var
-bs=f(a[2]),W=n(f(ai),bs);else
+V=aJ;if(V)var
+bs=f(a[2]),W=m(f(aj),bs);else
 var
-W=U;if(W){var
-bt=V(ai,bq),bu=V(V(u,e(function(o){var
+W=V;if(W){var
+bt=N(aj,bq),bu=N(N(u,e(function(o){var
 a=o[2],f=o[1];if(typeof
 a!=="number"&&1===a[0]){var
-g=a[2],k=a[1],p=c(2,c(2,c(2,q(c(2,c(2,b)))))),e=hZ(z,a_(D,dM([0,b,b],[0,b,h(gN(c(2,b)),p)])),f,[1,k,g]);if(typeof
+g=a[2],k=a[1],p=c(2,c(2,c(2,r(c(2,c(2,b)))))),e=ia(A,bb(D,dQ([0,b,b],[0,b,h(gV(c(2,b)),p)])),f,[1,k,g]);if(typeof
 e!=="number"&&1===e[0]){var
-d=ec([5,e[2],[2,[0,b,b],e[1]]]),r=[4,g,d4(d)],l=[2,[4,k,d3(d)],r],s=[4,g,d3(d)],m=[3,[4,k,d4(d)],s],n=[4,bb(D),[2,[0,b,b],l]];if(i(j,1,[2,[0,b,b],l])&&i(j,0,[3,n,m])&&i(j,0,[2,n,m])){var
-t=d4(d);return[1,d3(d),t]}return hZ(z,D,f,a)}return hZ(z,D,f,a)}return hZ(z,D,f,a)},bt)),ai),bw=y(function(t){var
-l=t[1],a=l[2],f=l[1],h=t[2],i=d_(Q,m,d9(f)),e=bk(Q,m,g,f);if(0===f[0]){var
+d=ef([5,e[2],[2,[0,b,b],e[1]]]),q=[4,g,d7(d)],l=[2,[4,k,d6(d)],q],s=[4,g,d6(d)],m=[3,[4,k,d7(d)],s],n=[4,bc(D),[2,[0,b,b],l]];if(i(j,1,[2,[0,b,b],l])&&i(j,0,[3,n,m])&&i(j,0,[2,n,m])){var
+t=d7(d);return[1,d6(d),t]}return ia(A,D,f,a)}return ia(A,D,f,a)}return ia(A,D,f,a)},bt)),aj),bv=y(function(t){var
+l=t[1],a=l[2],f=l[1],h=t[2],i=eb(Q,n,ea(f)),e=bl(Q,n,g,f);if(0===f[0]){var
 d=f[1];switch(d[0]){case
 0:var
-n=d[4],o=d[3],j=d[2],k=d[1];if(typeof
+m=d[4],o=d[3],j=d[2],k=d[1];if(typeof
 a!=="number"&&0===a[0]){var
-p=a[1],u=0,w=P(p,aD(k)),x=M(function(b,a){return[3,b,a]},g,j),y=M(function(b,a){return[3,b,a]},x,w),z=aQ(j,o,e),A=[3,v(aD(k),z),p],B=b7(k,j,o,n,e);return[0,[0,ec([5,[0,h,b],[2,ct(d[5],B),A]]),n,y,i],u]}return 0;case
+p=a[1],u=0,w=S(p,aE(k)),x=M(function(b,a){return[3,b,a]},g,j),y=M(function(b,a){return[3,b,a]},x,w),z=aS(j,o,e),A=[3,v(aE(k),z),p],B=b_(k,j,o,m,e);return[0,[0,ef([5,[0,h,b],[2,cx(d[5],B),A]]),m,y,i],u]}return 0;case
 1:if(typeof
 a!=="number"&&0===a[0]){var
-q=a[1],C=0,D=d[1],E=M(function(b,a){return[3,b,a]},g,D);return[0,[0,ec([5,[0,h,b],[2,q,cW(d,e)]]),q,E,i],C]}return 0;default:return 0}}var
+q=a[1],C=0,D=d[1],E=M(function(b,a){return[3,b,a]},g,D);return[0,[0,ef([5,[0,h,b],[2,q,cZ(d,e)]]),q,E,i],C]}return 0;default:return 0}}var
 c=f[1];if(typeof
 a!=="number"&&1===a[0]){var
-r=a[2],s=a[1],F=[4,r,fT(c,e)],G=[3,[4,s,fU(c,e)],F],I=P(r,fS(c)),H=0,J=P(s,eT(c)),K=M(function(b,a){return[2,b,a]},J,I),L=P(c[5],K),N=c[3],O=M(function(b,a){return[2,b,a]},N,L),R=M(function(b,a){return[3,b,a]},g,O),S=c[6],T=[2,d2(c,e),G];return[0,[0,ec([5,[0,h,b],[4,c[5],T]]),S,R,i],H]}return 0},bu);return qj(j,aB,L[2],L[3],bw)}return W}var
+r=a[2],s=a[1],F=[4,r,f2(c,e)],G=[3,[4,s,f3(c,e)],F],I=S(r,f1(c)),H=0,J=S(s,eX(c)),K=M(function(b,a){return[2,b,a]},J,I),L=S(c[5],K),N=c[3],O=M(function(b,a){return[2,b,a]},N,L),P=M(function(b,a){return[3,b,a]},g,O),R=c[6],T=[2,d5(c,e),G];return[0,[0,ef([5,[0,h,b],[4,c[5],T]]),R,P,i],H]}return 0},bu);return qx(j,aB,L[2],L[3],bv)}return W}var
 aG=0}else
 var
-aG=T;var
+aG=U;var
 aH=aG}else
 var
 aH=aF;return aH}var
 a7=p}return a7}var
-ah=0}}else
+ai=0}}else
 var
-ah=af;var
-a4=ah}else
+ai=af;var
+a4=ai}else
 var
 a4=ae;var
 a5=a4}else
 var
 a5=ad;return a5}function
-c2(a){if(a){var
-b=cR(k(a[1]));if(b){var
-c=c2(a[2]);if(c)var
-f=c[1],d=[0,[0,dN(b[1]),f]];else
+c5(a){if(a){var
+b=cU(k(a[1]));if(b){var
+c=c5(a[2]);if(c)var
+f=c[1],d=[0,[0,dR(b[1]),f]];else
 var
 d=c;var
 e=d}else
 var
-e=b;return e}return Ep}function
-im(g,k,j,a,i){var
-l=f(g),h=n(f(a),l);if(h){var
-m=V(V(g,V(k,j)),a);return e(function(f){var
-g=f[1],h=g[2],j=dM(h[2],h[1]),a=aR(g[1],i),k=F(d,a)?mG(cj(c(2,b),a)):[0,b,eA(cj(c(2,b),R(a)))],l=dN(gX(a_([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return dN(a_(mG(a),l))},m)},m)}return h}function
-lr(u,aU,aq,ap,t,ao,a){var
-c=h8(u,aU,aq,ap),ar=gj(y(ra,u),ao),g=ar?ij(u,aq,ap,c):ar;if(t){var
+e=b;return e}return EF}function
+iA(g,k,j,a,i){var
+l=f(g),h=m(f(a),l);if(h){var
+n=N(N(g,N(k,j)),a);return e(function(f){var
+g=f[1],h=g[2],j=dQ(h[2],h[1]),a=aT(g[1],i),k=D(d,a)?mJ(cm(c(2,b),a)):[0,b,eC(cm(c(2,b),U(a)))],l=dR(g5(bb([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return dR(bb(mJ(a),l))},m)},n)}return h}function
+lu(u,aU,aq,ap,t,ao,a){var
+c=ik(u,aU,aq,ap),ar=gs(y(ro,u),ao),g=ar?ix(u,aq,ap,c):ar;if(t){var
 v=t[2];if(v){var
 w=v[2];if(w){if(w[2])return 0;var
-h=w[1],i=v[1],m=t[1],as=q_(u,e(k,ao));if(as[2])return 0;var
+h=w[1],i=v[1],m=t[1],as=rm(u,e(k,ao));if(as[2])return 0;var
 f=as[1];if(typeof
 a!=="number")switch(a[0]){case
 2:var
 J=a[1];if(J){var
 K=J[2];if(K){var
 L=K[2];if(L){if(L[2]){var
-M=gh(c,a);if(M){var
+M=gq(c,a);if(M){var
 aX=k(h),aY=k(i),az=[0,k(m),aY,aX];if(g){var
-aA=fP(j,c,f,az,M[1]);if(aA)var
+aA=fY(j,c,f,az,M[1]);if(aA)var
 N=aA;else{if(typeof
 a!=="number"&&0===a[0]){var
-z=a[2];return z?z[2]?0:f9(j,c,f,az,a[1],z[1]):z}var
+z=a[2];return z?z[2]?0:gg(j,c,f,az,a[1],z[1]):z}var
 N=0}}else
 var
 N=g;var
 aB=N}else
 var
 aB=M;return aB}if(g){var
-aZ=k(L[1]),a0=k(K[1]),aC=[0,k(J[1]),a0,aZ],a1=k(h),a3=k(i),aD=[0,k(m),a3,a1],X=fN(j,c,f,aD),Y=X?cV(j,c[2],aC):X;if(Y){var
-aR=0,aS=0;return p_(j,0,[0,b,b],0,e(function(a){return[0,a]},f),aD,aS,aC,aR)}return Y}return g}var
-O=gh(c,a);if(O){var
+aZ=k(L[1]),a0=k(K[1]),aC=[0,k(J[1]),a0,aZ],a1=k(h),a2=k(i),aD=[0,k(m),a2,a1],X=fW(j,c,f,aD),Y=X?cY(j,c[2],aC):X;if(Y){var
+aR=0,aS=0;return qm(j,0,[0,b,b],0,e(function(a){return[0,a]},f),aD,aS,aC,aR)}return Y}return g}var
+O=gq(c,a);if(O){var
 a4=k(h),a5=k(i),aE=[0,k(m),a5,a4];if(g){var
-aF=fP(j,c,f,aE,O[1]);if(aF)var
+aF=fY(j,c,f,aE,O[1]);if(aF)var
 P=aF;else{if(typeof
 a!=="number"&&0===a[0]){var
-A=a[2];return A?A[2]?0:f9(j,c,f,aE,a[1],A[1]):A}var
+A=a[2];return A?A[2]?0:gg(j,c,f,aE,a[1],A[1]):A}var
 P=0}}else
 var
 P=g;var
 aG=P}else
 var
 aG=O;return aG}var
-Q=gh(c,a);if(Q){var
+Q=gq(c,a);if(Q){var
 a6=k(h),a7=k(i),aH=[0,k(m),a7,a6];if(g){var
-aI=fP(j,c,f,aH,Q[1]);if(aI)var
+aI=fY(j,c,f,aH,Q[1]);if(aI)var
 R=aI;else{if(typeof
 a!=="number"&&0===a[0]){var
-B=a[2];return B?B[2]?0:f9(j,c,f,aH,a[1],B[1]):B}var
+B=a[2];return B?B[2]?0:gg(j,c,f,aH,a[1],B[1]):B}var
 R=0}}else
 var
 R=g;var
 aJ=R}else
 var
 aJ=Q;return aJ}var
-S=gh(c,a);if(S){var
+S=gq(c,a);if(S){var
 a8=k(h),a9=k(i),aK=[0,k(m),a9,a8];if(g){var
-aL=fP(j,c,f,aK,S[1]);if(aL)var
+aL=fY(j,c,f,aK,S[1]);if(aL)var
 T=aL;else{if(typeof
 a!=="number"&&0===a[0]){var
-C=a[2];return C?C[2]?0:f9(j,c,f,aK,a[1],C[1]):C}var
+C=a[2];return C?C[2]?0:gg(j,c,f,aK,a[1],C[1]):C}var
 T=0}}else
 var
 T=g;var
@@ -8377,30 +8569,30 @@ aM=T}else
 var
 aM=S;return aM;case
 3:var
-U=E(c[3],a[1]);if(U){var
+U=F(c[3],a[1]);if(U){var
 aN=U[1];if(typeof
 aN==="number"&&aN){var
-V=c2(a[2]);if(V){var
-n=V[1],W=c2(a[3]);if(W){var
+V=c5(a[2]);if(V){var
+n=V[1],W=c5(a[3]);if(W){var
 o=W[1];if(g){var
-a_=im([0,d,[0,d,[0,d,0]]],n,o,a[4],a[5]),a$=k(h),ba=k(i),D=[0,k(m),ba,a$];if(n){var
+a_=iA([0,d,[0,d,[0,d,0]]],n,o,a[4],a[5]),a$=k(h),ba=k(i),D=[0,k(m),ba,a$];if(n){var
 p=n[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;if(o){var
 r=o[2];if(r){var
 s=r[2];if(s){if(s[2])return 0;var
-Z=s[1],_=r[1],$=o[1],aa=q[1],ab=p[1],ac=n[1],ad=[0,[1,0,ac,$],[1,xY,ab,_],[1,xX,aa,Z]],ae=fN(j,c,f,D);if(ae)var
-aT=c[3],F=aj(function(a){if(typeof
+Z=s[1],_=r[1],$=o[1],aa=q[1],ab=p[1],ac=n[1],ad=[0,[1,0,ac,$],[1,yc,ab,_],[1,yb,aa,Z]],ae=fW(j,c,f,D);if(ae)var
+aT=c[3],E=ag(function(a){if(typeof
 a==="number"&&a)return 1;return 0},aT);else
 var
-F=ae;var
-af=F?hV(n,o):F,ag=af?kN(j,c[2],[0,[0,ac,ab],aa],[0,[0,$,_],Z]):af,ah=ag?e4(j,n,o,a2(D)):ag,ai=ah?l(function(a){var
-b=e3(kO(a)),c=b?e3([0,cW(a,D),0]):b;if(c){var
-d=jS(a,ad);if(d)return kM(j,xZ,d[1]);var
+E=ae;var
+af=E?h8(n,o):E,ah=af?kQ(j,c[2],[0,[0,ac,ab],aa],[0,[0,$,_],Z]):af,ai=ah?e8(j,n,o,a3(D)):ah,aj=ai?l(function(a){var
+b=e7(kR(a)),c=b?e7([0,cZ(a,D),0]):b;if(c){var
+d=jV(a,ad);if(d)return kP(j,yd,d[1]);var
 e=1}else
 var
-e=c;return e},f):ah;if(ai)return hU(j,e(function(a){var
-b=cW(a,D);return[3,cW(a,ad),b]},f),a_);var
-ak=ai}else
+e=c;return e},f):ai;if(aj)return h7(j,e(function(a){var
+b=cZ(a,D);return[3,cZ(a,ad),b]},f),a_);var
+ak=aj}else
 var
 ak=s;var
 al=ak}else
@@ -8426,12 +8618,12 @@ aP=V;return aP}var
 aQ=0}else
 var
 aQ=U;return aQ}var
-H=gh(c,a);if(H){var
+H=gq(c,a);if(H){var
 aV=k(h),aW=k(i),at=[0,k(m),aW,aV];if(g){var
-au=fP(j,c,f,at,H[1]);if(au)var
+au=fY(j,c,f,at,H[1]);if(au)var
 I=au;else{if(typeof
 a!=="number"&&0===a[0]){var
-x=a[2];return x?x[2]?0:f9(j,c,f,at,a[1],x[1]):x}var
+x=a[2];return x?x[2]?0:gg(j,c,f,at,a[1],x[1]):x}var
 I=0}}else
 var
 I=g;var
@@ -8447,127 +8639,127 @@ ax=v;var
 ay=ax}else
 var
 ay=t;return ay}function
-rm(n,m,b,l,C,B){var
+rA(n,m,b,l,C,B){var
 f=C,d=B;for(;;){if(0===d[0]){var
-h=d[1],i=E(f,h),o=i?aF(i[1][2],Es):i;if(o)var
-D=d[2],j=rm(n,m,b,l,lf(0,h,f),D);else
+h=d[1],i=F(f,h),o=i?aF(i[1][2],EI):i;if(o)var
+D=d[2],j=rA(n,m,b,l,li(0,h,f),D);else
 var
 j=o;if(j){var
-F=d[3],f=lf(1,h,f),d=F;continue}return j}var
-c=d[1],a=q3(0,n,f),p=e(function(b){function
-d(b){return q4(a,b)}function
-c(a){return ld(d,a)}switch(b[0]){case
+E=d[3],f=li(1,h,f),d=E;continue}return j}var
+c=d[1],a=rf(0,n,f),p=e(function(b){function
+d(b){return rg(a,b)}function
+c(a){return lg(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=q4(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=rg(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
 i=x(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},m);if(0===b[0])var
-t=b[2],u=ld(function(b){return aA(a,b)},t),v=b[1],k=[0,ld(function(b){return aA(a,b)},v),u];else
+t=b[2],u=lg(function(b){return aC(a,b)},t),v=b[1],k=[0,lg(function(b){return aC(a,b)},v),u];else
 var
-w=aA(a,b[5]),y=aA(a,b[4]),z=aA(a,b[3]),A=aA(a,b[2]),k=[1,aA(a,b[1]),A,z,y,w];var
+w=aC(a,b[5]),y=aC(a,b[4]),z=aC(a,b[3]),A=aC(a,b[2]),k=[1,aC(a,b[1]),A,z,y,w];var
 q=e(function(g){var
 c=g[4];if(typeof
 c==="number")var
 d=0;else
 switch(c[0]){case
 0:var
-d=[0,aA(a,c[1])];break;case
+d=[0,aC(a,c[1])];break;case
 1:var
-d=[1,aA(a,c[1])];break;default:var
-m=aA(a,c[2]),d=[2,aA(a,c[1]),m]}var
+d=[1,aC(a,c[1])];break;default:var
+m=aC(a,c[2]),d=[2,aC(a,c[1]),m]}var
 h=g[3];if(h){var
 b=h[1];switch(b[0]){case
 0:var
-f=[0,[0,aA(a,b[1])]];break;case
+f=[0,[0,aC(a,b[1])]];break;case
 1:var
-j=b[1],f=[0,[1,e(function(b){return aA(a,b)},j)]];break;case
+j=b[1],f=[0,[1,e(function(b){return aC(a,b)},j)]];break;case
 2:var
-k=aA(a,b[2]),f=[0,[2,aA(a,b[1]),k]];break;default:var
-l=aA(a,b[2]),f=[0,[3,aA(a,b[1]),l]]}var
+k=aC(a,b[2]),f=[0,[2,aC(a,b[1]),k]];break;default:var
+l=aC(a,b[2]),f=[0,[3,aC(a,b[1]),l]]}var
 i=f}else
 var
 i=h;return[0,g[1],g[2],i,d]},l);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return lo(1,p,k,0,q,c[1],c[2],c[3]);default:var
+1:return lr(1,p,k,0,q,c[1],c[2],c[3]);default:var
 g=c[4],s=0;if(typeof
 g!=="number"&&2===g[0]){var
-J=g[1],r=[2,e(function(b){return aA(a,b)},J)];s=1}if(!s)var
+J=g[1],r=[2,e(function(b){return aC(a,b)},J)];s=1}if(!s)var
 r=g;var
-G=c[3],H=e(function(b){return aA(a,b)},G),I=c[2];return lr(p,k,0,q,e(function(b){return aA(a,b)},I),H,r)}}}function
-rn(h,g){var
-a=cR(k(h));if(a){var
-c=a[1],e=bo([0,d,b],c);if(e)return bo(c,g);var
+G=c[3],H=e(function(b){return aC(a,b)},G),I=c[2];return lu(p,k,0,q,e(function(b){return aC(a,b)},I),H,r)}}}function
+rB(h,g){var
+a=cU(k(h));if(a){var
+c=a[1],e=bp([0,d,b],c);if(e)return bp(c,g);var
 f=e}else
 var
 f=a;return f}function
-gk(b,a){if(a){var
-c=a[1],d=r(c,b,0);if(d)var
-g=ao(c,b),e=[0,[0,f(aZ(function(a){return a},g))]];else
+gt(b,a){if(a){var
+c=a[1],d=q(c,b,0);if(d)var
+g=aq(c,b),e=[0,[0,f(aW(function(a){return a},g))]];else
 var
-e=d;return e}return Eu}function
-ro(b,c,a){return y(function(a){if(cd(a)){var
-d=h9(0,b,0,a);return ab(1,mC(e(function(a){return fQ(j,Ev,a)},d)))}return ab(0,f(qQ(b,c,a)))},a)}function
-rp(c,a){return e(function(a){var
+e=d;return e}return EK}function
+rC(b,c,a){return y(function(a){if(cg(a)){var
+d=il(0,b,0,a);return $(1,mF(e(function(a){return fZ(j,EL,a)},d)))}return $(0,f(q4(b,c,a)))},a)}function
+rD(c,a){return e(function(a){var
 b=a[4],d=a[3],e=a[2],f=a[1];return[0,y(function(b){var
-a=gk(c,b[1]),d=a?[0,[0,a[1],b[2]],0]:a;return d},f),e,d,b]},a)}function
-rq(b,a){if(typeof
+a=gt(c,b[1]),d=a?[0,[0,a[1],b[2]],0]:a;return d},f),e,d,b]},a)}function
+rE(b,a){if(typeof
 a!=="number")switch(a[0]){case
 0:var
-c=a[2],d=gk(b,a[1]);return x(function(a){return[0,a,c]},d);case
+c=a[2],d=gt(b,a[1]);return x(function(a){return[0,a,c]},d);case
 1:var
-e=a[2],f=gk(b,a[1]);return x(function(a){return[1,a,e]},f);case
+e=a[2],f=gt(b,a[1]);return x(function(a){return[1,a,e]},f);case
 3:var
-g=a[5],h=a[4],i=a[3],j=a[2],k=gk(b,a[1]);return x(function(a){return[3,a,j,i,h,g]},k)}return[0,a]}function
-EB(w){var
-gO=h6(w[3]),gP=gO?h6(w[4]):gO;if(gP){var
-ah=w[1];switch(ah[0]){case
+g=a[5],h=a[4],i=a[3],j=a[2],k=gt(b,a[1]);return x(function(a){return[3,a,j,i,h,g]},k)}return[0,a]}function
+ER(w){var
+gO=ii(w[3]),gP=gO?ii(w[4]):gO;if(gP){var
+ai=w[1];switch(ai[0]){case
 3:var
-gV=l(ge,ah[1]);if(gV)var
-lR=ah[2],dl=l(function(a){return ge(a[1])},lR);else
+gV=l(gn,ai[1]);if(gV)var
+lR=ai[2],dm=l(function(a){return gn(a[1])},lR);else
 var
-dl=gV;if(dl)var
-lS=ah[3],dm=l(function(a){var
-b=ge(a[1]),c=b?k5(a[2]):b;return c?gf(a[2]):c},lS);else
+dm=gV;if(dm)var
+lS=ai[3],dn=l(function(a){var
+b=gn(a[1]),c=b?k8(a[2]):b;return c?go(a[2]):c},lS);else
 var
-dm=dl;if(dm)var
-lT=ah[4],bQ=l(function(a){var
+dn=dm;if(dn)var
+lT=ai[4],bQ=l(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return l(function(a){var
-b=k5(a);return b?gf(a):b},b)},lT);else
+b=k8(a);return b?go(a):b},b)},lT);else
 var
-bQ=dm;break;case
+bQ=dn;break;case
 7:var
-lU=ah[1],gW=l(function(a){var
-b=ge(a[1]);return b?gg(0,[0,a[2][1],[0,a[2][2],0]]):b},lU),bQ=gW?gg(0,[0,ah[5],[0,ah[6],0]]):gW;break;default:var
+lU=ai[1],gW=l(function(a){var
+b=gn(a[1]);return b?gp(0,[0,a[2][1],[0,a[2][2],0]]):b},lU),bQ=gW?gp(0,[0,ai[5],[0,ai[6],0]]):gW;break;default:var
 bQ=1}var
-dj=bQ}else
+dh=bQ}else
 var
-dj=gP;var
-ep=0;if(dj){var
-gQ=w[1],dk=7===gQ[0]?e(at,gQ[1]):0,gR=function(c,b){var
-a=qN(c);return a?l(function(a){var
-e=a[1],b=l(function(a){return k4(a[2])},e);if(b){var
-c=a[3];if(c)return gg(dk,qM(c[1]));var
+dh=gP;var
+eo=0;if(dh){var
+gQ=w[1],dl=7===gQ[0]?e(as,gQ[1]):0,gR=function(c,b){var
+a=q1(c);return a?l(function(a){var
+e=a[1],b=l(function(a){return k7(a[2])},e);if(b){var
+c=a[3];if(c)return gp(dl,q0(c[1]));var
 d=1}else
 var
 d=b;return d},b):a},gS=function(e,d,c,b){var
-a=qN(e);return a?gg(dk,g(d,g(c,qM(b)))):a},o=w[1];switch(o[0]){case
+a=q1(e);return a?gp(dl,g(d,g(c,q0(b)))):a},o=w[1];switch(o[0]){case
 0:var
-lf=y(eg,o[4]),lj=g(y(qK,o[3]),lf),ls=g(qI(o[2]),lj),ai=g(y(k6,o[1]),ls);break;case
+le=y(ei,o[4]),lf=g(y(qY,o[3]),le),lg=g(qW(o[2]),lf),aj=g(y(k9,o[1]),lg);break;case
 1:var
-de=o[5],dh=o[3],lt=y(eg,o[6]),lu=de?qJ(de[1]):de,lv=g(lu,lt),lw=g(qH(o[4]),lv),lx=dh?[0,dh[1],0]:dh,ly=g(lx,lw),ai=g(y(CW,o[2]),ly);break;case
+db=o[5],de=o[3],li=y(ei,o[6]),lm=db?qX(db[1]):db,lv=g(lm,li),lw=g(qV(o[4]),lv),lx=de?[0,de[1],0]:de,ly=g(lx,lw),aj=g(y(Da,o[2]),ly);break;case
 2:var
-lz=y(eg,o[7]),lA=g(y(qK,o[6]),lz),lB=g(qJ(o[5]),lA),lC=g(qH(o[4]),lB),lD=[0,o[3],lC],lE=o[2],ai=g(y(function(a){return y(e_,g(a[1],a[2]))},lE),lD);break;case
+lz=y(ei,o[7]),lA=g(y(qY,o[6]),lz),lB=g(qX(o[5]),lA),lC=g(qV(o[4]),lB),lD=[0,o[3],lC],lE=o[2],aj=g(y(function(a){return y(fc,g(a[1],a[2]))},lE),lD);break;case
 3:var
-lF=y(eg,o[7]),lG=g(o[6],lF),lH=g(o[5],lG),lI=o[2],ai=g(y(function(a){return e_(a[2])},lI),lH);break;case
+lF=y(ei,o[7]),lG=g(o[6],lF),lH=g(o[5],lG),lI=o[2],aj=g(y(function(a){return fc(a[2])},lI),lH);break;case
 4:var
-lJ=y(eg,o[3]),ai=[0,o[1],[0,o[2],lJ]];break;case
+lJ=y(ei,o[3]),aj=[0,o[1],[0,o[2],lJ]];break;case
 5:var
-lK=y(eg,o[4]),lL=g(cb(o[3]),lK),lM=g(cb(o[2]),lL),lN=g(y(k6,o[1]),lM),ai=[0,o[5],lN];break;case
+lK=y(ei,o[4]),lL=g(ce(o[3]),lK),lM=g(ce(o[2]),lL),lN=g(y(k9,o[1]),lM),aj=[0,o[5],lN];break;case
 6:var
-di=o[1],ai=di?e_(di[1]):di;break;default:var
-lO=y(eg,o[4]),lP=g(qI(o[3]),lO),ai=g(y(k6,o[2]),lP)}var
-gT=gg(dk,ai);if(gT){var
+dg=o[1],aj=dg?fc(dg[1]):dg;break;default:var
+lO=y(ei,o[4]),lP=g(qW(o[3]),lO),aj=g(y(k9,o[2]),lP)}var
+gT=gp(dl,aj);if(gT){var
 ak=w[2];switch(ak[0]){case
 0:var
 br=gR(ak[1],ak[3]);break;case
@@ -8577,266 +8769,266 @@ lQ=ak[1],br=l(function(a){if(typeof
 a!=="number")switch(a[0]){case
 1:return gR(a[1],a[3]);case
 2:return gS(a[1],a[2],a[3],a[4])}return 1},lQ)}}else{var
-gU=gT;ep=1}}else{var
-gU=dj;ep=1}if(ep)var
+gU=gT;eo=1}}else{var
+gU=dh;eo=1}if(eo)var
 br=gU;if(br){var
 a=w[1];switch(a[0]){case
 0:var
-Q=a[4],am=a[3],ap=a[2],S=a[1],aI=w[2];switch(aI[0]){case
+Q=a[4],am=a[3],an=a[2],R=a[1],aI=w[2];switch(aI[0]){case
 0:var
-dH=aI[3],hs=aI[2],dI=aI[1],g8=ro(f(S),am,Q),l2=aZ(function(a){return I(cd(a))},Q);if(aj(cd,Q)){var
-g9=lo(0,S,ap,am,l2,dI,hs,rp(e(I,g8),dH));if(g9){var
-l3=rp(g8,dH),l4=aZ(cd,Q),l5=k$(ap);return lp(0,e(k_,S),0,l5,0,l4,dI,0,l3)}return g9}return lo(0,S,ap,am,Q,dI,hs,dH);case
+dI=aI[3],hq=aI[2],dJ=aI[1],g8=rC(f(R),am,Q),l2=aW(function(a){return J(cg(a))},Q);if(ag(cg,Q)){var
+g9=lr(0,R,an,am,l2,dJ,hq,rD(e(J,g8),dI));if(g9){var
+l3=rD(g8,dI),l4=aW(cg,Q),l5=lc(an);return ls(0,e(lb,R),0,l5,0,l4,dJ,0,l3)}return g9}return lr(0,R,an,am,Q,dJ,hq,dI);case
 1:var
-dK=aI[4],dL=aI[3],dM=aI[2],g_=ro(f(S),am,Q),dy=aZ(function(a){return I(cd(a))},Q);if(aj(cd,Q)){var
-l6=aZ(cd,Q),l7=k$(ap),g$=ii(0,e(k_,S),0,l7,0,l6);if(g$)var
-dz=rq(e(I,g_),dK),l8=dz?lr(S,ap,am,dy,dM,dL,dz[1]):dz,dA=l8;else
+dK=aI[4],dL=aI[3],dM=aI[2],g_=rC(f(R),am,Q),dy=aW(function(a){return J(cg(a))},Q);if(ag(cg,Q)){var
+l6=aW(cg,Q),l7=lc(an),g$=iw(0,e(lb,R),0,l7,0,l6);if(g$)var
+dA=rE(e(J,g_),dK),l8=dA?lu(R,an,am,dy,dM,dL,dA[1]):dA,dB=l8;else
 var
-dA=g$;if(dA)var
-dB=dA;else{var
-ha=ij(S,am,dy,h8(S,ap,am,dy));if(ha){var
-dD=rq(g_,dK);if(dD){var
-l9=dD[1],l_=aZ(cd,Q),l$=k$(ap);return lq(0,e(k_,S),0,l$,0,l_,dM,dL,l9)}var
-dB=dD}else
+dB=g$;if(dB)var
+dC=dB;else{var
+ha=ix(R,am,dy,ik(R,an,am,dy));if(ha){var
+dD=rE(g_,dK);if(dD){var
+l9=dD[1],l_=aW(cg,Q),l$=lc(an);return lt(0,e(lb,R),0,l$,0,l_,dM,dL,l9)}var
+dC=dD}else
 var
-dB=ha}return dB}return lr(S,ap,am,Q,dM,dL,dK);default:return 0}case
+dC=ha}return dC}return lu(R,an,am,Q,dM,dL,dK);default:return 0}case
 1:var
-bs=a[6],bV=a[5],bW=a[4],bX=a[3],X=a[2],T=a[1],aL=w[2];switch(aL[0]){case
-0:return lp(T,X,bX,bW,bV,bs,aL[1],aL[2],aL[3]);case
+bs=a[6],bV=a[5],bW=a[4],bX=a[3],X=a[2],T=a[1],aJ=w[2];switch(aJ[0]){case
+0:return ls(T,X,bX,bW,bV,bs,aJ[1],aJ[2],aJ[3]);case
 1:var
-aq=aL[4],dN=aL[3],ht=aL[2];if(typeof
-aq!=="number"&&3===aq[0]){var
-mk=aq[5],ml=aq[4],mm=aq[3],mn=aq[2],mo=aq[1],s=typeof
-T==="number"?T?Eq:Er:ih(T[1]),gX=dJ(an(T),s),dq=e(k,ht),a7=k9(T,X,bX,bW,bV,bs),gY=rl(a7[2]),gZ=li(X,e(k,dN));if(gZ[2])return 0;var
-ds=c2(mn);if(ds){var
-W=ds[1],dt=c2(mm);if(dt){var
-aH=dt[1],g0=gj(y(lk,X),dN),g1=g0?ii(T,X,bX,bW,bV,bs):g0;if(g1)var
-lW=an(T),du=n(f(dq),lW);else
+ao=aJ[4],dO=aJ[3],hr=aJ[2];if(typeof
+ao!=="number"&&3===ao[0]){var
+mk=ao[5],ml=ao[4],mm=ao[3],mn=ao[2],mo=ao[1],s=typeof
+T==="number"?T?EG:EH:iv(T[1]),gX=dN(ap(T),s),dq=e(k,hr),a7=la(T,X,bX,bW,bV,bs),gY=rz(a7[2]),gZ=ll(X,e(k,dO));if(gZ[2])return 0;var
+dr=c5(mn);if(dr){var
+W=dr[1],dt=c5(mm);if(dt){var
+aH=dt[1],g0=gs(y(ln,X),dO),g1=g0?iw(T,X,bX,bW,bV,bs):g0;if(g1)var
+lW=ap(T),dv=m(f(dq),lW);else
 var
-du=g1;if(du)var
-lX=f(X),lY=f1(T),dv=n(mo,en(ej(X),lY,lX,0,bs));else
+dv=g1;if(dv)var
+lX=f(X),lY=f_(T),dw=m(mo,ep(el(X),lY,lX,0,bs));else
 var
-dv=du;if(dv){if(ej(X))var
-lZ=ab(d,gX),g2=g(ab(gY,s),lZ);else
+dw=dv;if(dw){if(el(X))var
+lZ=$(d,gX),g2=g($(gY,s),lZ);else
 var
-l1=ab(R(gY),gX),g2=g(ab(d,s),l1);var
-l0=im(g2,W,aH,ml,mk),al=ay(s,dq),bn=aN(ao(s,dq)),dx=gZ[1],O=a7[5],fF=kL(0,W,aH),cE=qe(ao(s,fF)),cF=ay(s,fF),fG=a7[7],fH=fG?e1(j,a7[2],dx):fG,fI=fH?hI(j,a7,bn,al):fH,fJ=fI?ae(s,x9):fI;if(fJ)var
-j_=N(s,f(al)),cG=n(f(W),j_);else
+l1=$(U(gY),gX),g2=g($(d,s),l1);var
+l0=iA(g2,W,aH,ml,mk),al=az(s,dq),bn=aP(aq(s,dq)),dx=gZ[1],P=a7[5],fE=kO(0,W,aH),cE=qs(aq(s,fE)),cF=az(s,fE),fF=a7[7],fG=fF?e5(j,a7[2],dx):fF,fH=fG?hV(j,a7,bn,al):fG,fI=fH?ae(s,yn):fH;if(fI)var
+j_=O(s,f(al)),cG=m(f(W),j_);else
 var
-cG=fJ;var
-fK=cG?hV(W,aH):cG;if(fK)var
-j$=hW(ao(s,aH)),ka=hW(ao(s,W)),cH=kN(j,a7[4],ka,j$);else
+cG=fI;var
+fK=cG?h8(W,aH):cG;if(fK)var
+j$=h9(aq(s,aH)),ka=h9(aq(s,W)),cH=kQ(j,a7[4],ka,j$);else
 var
 cH=fK;if(cH){var
-kb=ay(s,aH),kc=ay(s,W);if(O)var
-fD=O[1],j9=0===fD[0]?x7:x8,fE=n(f(al),j9),fM=fE?qd(j,fD,kc,kb):fE;else
+kb=az(s,aH),kc=az(s,W);if(P)var
+fC=P[1],j9=0===fC[0]?yl:ym,fD=m(f(al),j9),fL=fD?qr(j,fC,kc,kb):fD;else
 var
-fM=n(f(al),0);var
-cI=fM}else
+fL=m(f(al),0);var
+cI=fL}else
 var
 cI=cH;if(cI){var
-kd=ao(s,a2(bn)),ke=ao(s,aH),fN=e4(j,ao(s,W),ke,kd);if(fN)var
-a5=fN;else
-if(O){var
-fP=qc(O[1]);if(fP)var
-kg=ay(s,aH),a5=e4(j,ay(s,W),kg,al);else
+kd=aq(s,a3(bn)),ke=aq(s,aH),fM=e8(j,aq(s,W),ke,kd);if(fM)var
+a5=fM;else
+if(P){var
+fO=qq(P[1]);if(fO)var
+kf=az(s,aH),a5=e8(j,az(s,W),kf,al);else
 var
-a5=fP}else
+a5=fO}else
 var
-a5=O}else
+a5=P}else
 var
 a5=cI;var
-fO=a5?l(function(b){var
-a=e0(O,al,bn,b),t=typeof
+fN=a5?l(function(b){var
+a=e4(P,al,bn,b),t=typeof
 a==="number"?0:0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]];if(0===b[0])var
-k=kO(b[1]);else
+k=kR(b[1]);else
 var
-c=b[1],p=[0,c[5],[0,c[6],0]],q=g(a2(c[4]),p),r=g(a2(c[3]),q),s=g(a2(c[2]),r),k=g(a2(c[1]),s);var
-m=e3(g(k,t));if(m)var
-u=kf(O,al,bn,b),v=1,e=l(function(a){return i(j,v,a)},u);else
+c=b[1],p=[0,c[5],[0,c[6],0]],q=g(a3(c[4]),p),r=g(a3(c[3]),q),s=g(a3(c[2]),r),k=g(a3(c[1]),s);var
+m=e7(g(k,t));if(m)var
+u=ki(P,al,bn,b),v=1,e=l(function(a){return i(j,v,a)},u);else
 var
 e=m;if(e){var
-d=e0(O,cF,cE,b),n=0;if(typeof
+d=e4(P,cF,cE,b),n=0;if(typeof
 d==="number"||!(1===d[0]))n=1;else{var
 o=0;if(typeof
 a!=="number"&&1===a[0]){var
 h=[0,[2,[4,d[1],a[1]],[4,d[2],a[2]]],0];o=1}if(!o)var
 h=0}if(n)var
 h=0;var
-w=g(kf(O,cF,cE,b),h),x=f(W);return l(function(a){return kM(j,x,a)},w)}return e},dx):a5;return fO?hU(j,e(function(d){var
-a=e0(O,al,bn,d),c=e0(O,cF,cE,d);if(typeof
+w=g(ki(P,cF,cE,b),h),x=f(W);return l(function(a){return kP(j,x,a)},w)}return e},dx):a5;return fN?h7(j,e(function(d){var
+a=e4(P,al,bn,d),c=e4(P,cF,cE,d);if(typeof
 c==="number")return[0,b,b];else{if(0===c[0]){if(typeof
 a!=="number"&&0===a[0])return[3,c[1],a[1]];return[0,b,b]}if(typeof
-a!=="number"&&1===a[0])return[3,[4,c[2],a[1]],[4,c[1],a[2]]];return[0,b,b]}},dx),l0):fO}var
-g3=dv}else
+a!=="number"&&1===a[0])return[3,[4,c[2],a[1]],[4,c[1],a[2]]];return[0,b,b]}},dx),l0):fN}var
+g3=dw}else
 var
 g3=dt;var
 g4=g3}else
 var
-g4=ds;return g4}return lq(T,X,bX,bW,bV,bs,ht,dN,aq);default:return 0}case
+g4=dr;return g4}return lt(T,X,bX,bW,bV,bs,hr,dO,ao);default:return 0}case
 2:var
-aM=a[7],aO=a[6],bY=a[5],bZ=a[4],b0=a[3],Y=a[2],Z=a[1],aP=w[2];switch(aP[0]){case
+aL=a[7],aN=a[6],bY=a[5],bZ=a[4],b0=a[3],Y=a[2],Z=a[1],aO=w[2];switch(aO[0]){case
 0:var
-hu=aP[3],as=qV(Z,Y,b0,bZ,bY,aO,aM),mp=as[2],dO=G(b,bR(y(function(a){var
-b=bj(a[2]);return g(bj(a[1]),b)},mp))),mq=f(hu),mr=kp(dO,as[2]),ms=kp(dO,as[2]),dP=ek(bH(Z),ms,mr,0,mq,hu);if(dP){var
-hv=dP[1];if(hv[2])return 0;var
-hw=re(Z,Y,b0,bZ,bY,aO,aM);if(hw){var
-mt=hv[1],mu=f(Y),mv=en(0,ll(Z),mu,aO,aM),mw=il(aP[2]),mx=aP[1],iZ=as[2],eu=l(function(a){var
-b=py(j,a[1]);return b?py(j,a[2]):b},iZ);if(eu)var
-i0=jU(as[4]),cg=cV(j,as[4],i0);else
+hs=aO[3],ar=q9(Z,Y,b0,bZ,bY,aN,aL),mp=ar[2],dP=G(b,bU(y(function(a){var
+b=bk(a[2]);return g(bk(a[1]),b)},mp))),mq=f(hs),mr=ks(dP,ar[2]),ms=ks(dP,ar[2]),dQ=em(bK(Z),ms,mr,0,mq,hs);if(dQ){var
+ht=dQ[1];if(ht[2])return 0;var
+hu=rs(Z,Y,b0,bZ,bY,aN,aL);if(hu){var
+mt=ht[1],mu=f(Y),mv=ep(0,lo(Z),mu,aN,aL),mw=iz(aO[2]),mx=aO[1],iZ=ar[2],eu=l(function(a){var
+b=pM(j,a[1]);return b?pM(j,a[2]):b},iZ);if(eu)var
+i0=jX(ar[4]),cc=cY(j,ar[4],i0);else
 var
-cg=eu;if(cg)var
-i1=hF(as[5]),ch=l(function(a){return f3(j,a)},i1);else
+cc=eu;if(cc)var
+i1=hS(ar[5]),ch=l(function(a){return ga(j,a)},i1);else
 var
-ch=cg;return ch?w7(mx,mw,mv,as,dO,mt):ch}var
-hx=hw}else
+ch=cc;return ch?xl(mx,mw,mv,ar,dP,mt):ch}var
+hv=hu}else
 var
-hx=dP;return hx;case
+hv=dQ;return hv;case
 1:var
-_=aP[4],hy=aP[3],aQ=e(k,aP[2]),q=ih(Z),hA=q$(Y,e(k,hy));if(hA[2])return 0;var
-t=hA[1],hB=gj(y(function(a){return g(a[1],a[2])},Y),hy),hC=hB?re(Z,Y,b0,bZ,bY,aO,aM):hB;if(hC){var
-p=qV(Z,Y,b0,bZ,bY,aO,aM);if(typeof
-_!=="number")switch(_[0]){case
+aa=aO[4],hw=aO[3],aQ=e(k,aO[2]),r=iv(Z),hx=rn(Y,e(k,hw));if(hx[2])return 0;var
+t=hx[1],hy=gs(y(function(a){return g(a[1],a[2])},Y),hw),hz=hy?rs(Z,Y,b0,bZ,bY,aN,aL):hy;if(hz){var
+p=q9(Z,Y,b0,bZ,bY,aN,aL);if(typeof
+aa!=="number")switch(aa[0]){case
 2:var
-hK=e(k,_[1]),hL=ay(q,hK),hM=aN(ao(q,hK)),hN=ay(q,aQ),hO=aN(ao(q,aQ)),ev=eV(j,p,t,hO,hN),ew=ev?eV(j,p,t,hM,hL):ev;if(ew)var
-i2=bH(p[1]),ci=n(f(t),i2);else
+hH=e(k,aa[1]),hI=az(r,hH),hJ=aP(aq(r,hH)),hK=az(r,aQ),hL=aP(aq(r,aQ)),ev=eZ(j,p,t,hL,hK),ew=ev?eZ(j,p,t,hJ,hI):ev;if(ew)var
+i2=bK(p[1]),ci=m(f(t),i2);else
 var
 ci=ew;if(ci){var
 ex=function(b,a){var
-c=p[5],d=p[3],f=p[1];return e(function(e){return j5(f,d,c,a,b,e)},t)},i3=ex(hM,hL),i4=ex(hO,hN);return kx(j,bH(p[1]),i4,i3)}return ci;case
+c=p[5],d=p[3],f=p[1];return e(function(e){return j8(f,d,c,a,b,e)},t)},i3=ex(hJ,hI),i4=ex(hL,hK);return kA(j,bK(p[1]),i4,i3)}return ci;case
 3:var
-dT=c2(_[2]);if(dT){var
-au=dT[1],dV=c2(_[3]);if(dV){var
-aR=dV[1],mz=p[2],mA=G(b,bR(y(function(a){var
-b=bj(a[2]);return g(bj(a[1]),b)},mz))),mB=f(Y),mC=en(0,ll(Z),mB,aO,aM),hP=n(_[1],mC);if(hP){var
-mD=_[5],mE=_[4],mF=ab(R(mA),dJ(f(aQ),q)),mG=im(g(ab(d,q),mF),au,aR,mE,mD),a8=ay(q,aQ),b3=aN(ao(q,aQ)),a4=p[5],fu=kL(0,au,aR),fv=p[7],fw=fv?eV(j,p,t,b3,a8):fv,fx=fw?ae(q,x4):fw;if(fx)var
-jZ=N(q,f(a8)),cA=n(f(au),jZ);else
+dT=c5(aa[2]);if(dT){var
+at=dT[1],dU=c5(aa[3]);if(dU){var
+aR=dU[1],mz=p[2],mA=G(b,bU(y(function(a){var
+b=bk(a[2]);return g(bk(a[1]),b)},mz))),mB=f(Y),mC=ep(0,lo(Z),mB,aN,aL),hN=m(aa[1],mC);if(hN){var
+mD=aa[5],mE=aa[4],mF=$(U(mA),dN(f(aQ),r)),mG=iA(g($(d,r),mF),at,aR,mE,mD),a8=az(r,aQ),b3=aP(aq(r,aQ)),a1=p[5],fu=kO(0,at,aR),fv=p[7],fw=fv?eZ(j,p,t,b3,a8):fv,fx=fw?ae(r,yi):fw;if(fx)var
+jW=O(r,f(a8)),cz=m(f(at),jW);else
 var
-cA=fx;if(cA)var
-j0=0===a4[0]?x5:x6,cB=n(f(a8),j0);else
+cz=fx;if(cz)var
+j0=0===a1[0]?yj:yk,cA=m(f(a8),j0);else
 var
-cB=cA;var
-fy=cB?hV(au,aR):cB;if(fy)var
-j1=hW(ao(q,aR)),j2=hW(ao(q,au)),cC=kN(j,p[4],j2,j1);else
+cA=cz;var
+fy=cA?h8(at,aR):cA;if(fy)var
+j1=h9(aq(r,aR)),j2=h9(aq(r,at)),cB=kQ(j,p[4],j2,j1);else
 var
-cC=fy;if(cC)var
-j3=ay(q,aR),cD=qd(j,a4,ay(q,au),j3);else
+cB=fy;if(cB)var
+j3=az(r,aR),cD=qr(j,a1,az(r,at),j3);else
 var
-cD=cC;if(cD){var
-j6=ao(q,a2(b3)),j7=ao(q,aR),fz=e4(j,ao(q,au),j7,j6);if(fz)var
+cD=cB;if(cD){var
+j4=aq(r,a3(b3)),j5=aq(r,aR),fz=e8(j,aq(r,at),j5,j4);if(fz)var
 bl=fz;else{var
-fB=qc(a4);if(fB)var
-j8=ay(q,aR),bl=e4(j,ay(q,au),j8,a8);else
+fB=qq(a1);if(fB)var
+j6=az(r,aR),bl=e8(j,az(r,at),j6,a8);else
 var
 bl=fB}}else
 var
 bl=cD;var
 fA=bl?l(function(a){var
-c=a2(a[2]),b=e3(g(a2(a[1]),c));return b?e3([0,kP(a4,a8,b3,a),0]):b},t):bl;return fA?hU(j,e(function(a){var
-b=[6,kP(a4,a8,b3,a)],c=qe(ao(q,fu));return[3,[6,kP(a4,ay(q,fu),c,a)],b]},t),mG):fA}var
-hQ=hP}else
+c=a3(a[2]),b=e7(g(a3(a[1]),c));return b?e7([0,kS(a1,a8,b3,a),0]):b},t):bl;return fA?h7(j,e(function(a){var
+b=[6,kS(a1,a8,b3,a)],c=qs(aq(r,fu));return[3,[6,kS(a1,az(r,fu),c,a)],b]},t),mG):fA}var
+hO=hN}else
 var
-hQ=dV;var
-hT=hQ}else
+hO=dU;var
+hP=hO}else
 var
-hT=dT;return hT}var
-my=f(Y),dQ=lm(0,ll(Z),my,aO,aM,_);if(dQ){var
-bu=dQ[1],z=aN(ao(q,aQ)),u=ay(q,aQ),er=eV(j,p,t,z,u);if(er)var
-af=p[5],es=p[3],et=p[1],iW=p[6],cf=function(a){var
-b=b9(af,u,z,a);return v(b9(af,u,z,a),b)},iP=e(function(a){return[0,j5(et,es,af,u,z,a)]},t),iQ=e(cf,t),iR=function(a){var
-b=dp(af,u,a);return M(function(b,a){return[2,b,a]},z,b)},iS=e(function(a){var
-b=[6,cf(a)],c=b9(af,u,z,a),d=dp(af,u,a[2]);return[0,[0,[0,M(function(b,a){return[2,b,a]},z,d),c],b]]},t),iT=e(function(a){return 0},t),iU=e(function(a){return[0,[6,cf(a)]]},t),iV=[0,e(function(c){var
-a=aD(b9(af,u,z,c));return j4(et,a,P([5,[0,b,b],es],cu(dp(af,u,c[2]),a)))},t),iU,iT,iS,iR,iQ,iP],iX=bH(p[1]),iY=2<=p[1]?vU:vV,dS=jW(j,iY,iX,iV,iW,bu);else
+hP=dT;return hP}var
+my=f(Y),dR=lp(0,lo(Z),my,aN,aL,aa);if(dR){var
+bt=dR[1],z=aP(aq(r,aQ)),u=az(r,aQ),er=eZ(j,p,t,z,u);if(er)var
+af=p[5],es=p[3],et=p[1],iW=p[6],cb=function(a){var
+b=ca(af,u,z,a);return v(ca(af,u,z,a),b)},iP=e(function(a){return[0,j8(et,es,af,u,z,a)]},t),iQ=e(cb,t),iR=function(a){var
+b=ds(af,u,a);return M(function(b,a){return[2,b,a]},z,b)},iS=e(function(a){var
+b=[6,cb(a)],c=ca(af,u,z,a),d=ds(af,u,a[2]);return[0,[0,[0,M(function(b,a){return[2,b,a]},z,d),c],b]]},t),iT=e(function(a){return 0},t),iU=e(function(a){return[0,[6,cb(a)]]},t),iV=[0,e(function(c){var
+a=aE(ca(af,u,z,c));return j7(et,a,S([5,[0,b,b],es],cy(ds(af,u,c[2]),a)))},t),iU,iT,iS,iR,iQ,iP],iX=bK(p[1]),iY=2<=p[1]?v_:v$,dS=jZ(j,iY,iX,iV,iW,bt);else
 var
 dS=er;if(dS)var
-hD=dS;else{if(typeof
-bu!=="number"&&0===bu[0]){var
-b1=bu[2];if(b1){if(b1[2])return 0;var
-b2=b1[1],hH=bu[1],bg=p[1],fg=eV(j,p,t,z,u),eq=0;if(fg){var
-jQ=p[6],jR=2<=bg?xU:xV,cw=d1(j,jR,hH,jQ),b$=0;if(cw){var
-a1=cw[1][1],ce=0;if(typeof
-a1!=="number"&&15===a1[0]){var
-cx=E(t,a1[1]);if(cx){var
-bk=fR(b2),fj=a1[3],bG=cx[1],bI=p[5],cz=p[3],jS=a1[4],jT=a1[2],e6=j5(bg,cz,bI,u,z,bG),e7=b9(bI,u,z,bG),cv=bi(bk,bk),e8=[4,[4,jT,[6,bi(e6,e6)]],cv],be=b9(bI,u,z,bG),cs=dp(bI,u,bG[2]),bf=P([5,[0,b,b],cz],kJ(bg,bk)),jE=cu(bf,cs),jF=kI(bg,bk),ct=M(function(b,a){return[2,b,a]},jF,jE),eZ=v(be,ct),jG=v(bf,bf),jH=[4,v(be,cs),jG],jI=v(cs,bf),jJ=[3,[4,v(be,bf),jI],jH],jN=[5,[4,eZ,eZ],v(be,be)],e9=[4,[4,fj,fj],[2,[3,v(ct,ct),jN],jJ]],e$=[4,[4,jS,cv],[6,v(e7,e7)]],jP=bH(bg),fa=n(f(bk),jP),fb=fa?i(j,1,cv):fa,fc=fb?i(j,1,cz):fb,iO=0;if(fc){var
-fe=i(j,1,[3,[2,e8,e9],e$]);if(fe)var
-ff=fe;else{var
-bv=i(j,1,[3,[3,e8,e9],e$]);b$=1;ce=1;iO=1}}else
+hA=dS;else{if(typeof
+bt!=="number"&&0===bt[0]){var
+b1=bt[2];if(b1){if(b1[2])return 0;var
+b2=b1[1],hF=bt[1],bg=p[1],ff=eZ(j,p,t,z,u),eq=0;if(ff){var
+jM=p[6],jQ=2<=bg?x_:x$,cv=d4(j,jQ,hF,jM),b_=0;if(cv){var
+a0=cv[1][1],b$=0;if(typeof
+a0!=="number"&&15===a0[0]){var
+cw=F(t,a0[1]);if(cw){var
+bh=f0(b2),fj=a0[3],bE=cw[1],bF=p[5],cx=p[3],jS=a0[4],jT=a0[2],e0=j8(bg,cx,bF,u,z,bE),e1=ca(bF,u,z,bE),cu=bj(bh,bh),e2=[4,[4,jT,[6,bj(e0,e0)]],cu],be=ca(bF,u,z,bE),cs=ds(bF,u,bE[2]),bf=S([5,[0,b,b],cx],kM(bg,bh)),jE=cy(bf,cs),jF=kL(bg,bh),ct=M(function(b,a){return[2,b,a]},jF,jE),eY=v(be,ct),jG=v(bf,bf),jH=[4,v(be,cs),jG],jI=v(cs,bf),jJ=[3,[4,v(be,bf),jI],jH],jK=[5,[4,eY,eY],v(be,be)],e3=[4,[4,fj,fj],[2,[3,v(ct,ct),jK],jJ]],e_=[4,[4,jS,cu],[6,v(e1,e1)]],jL=bK(bg),e$=m(f(bh),jL),fa=e$?i(j,1,cu):e$,fb=fa?i(j,1,cx):fa,iO=0;if(fb){var
+fd=i(j,1,[3,[2,e2,e3],e_]);if(fd)var
+fe=fd;else{var
+bv=i(j,1,[3,[3,e2,e3],e_]);b_=1;b$=1;iO=1}}else
 var
-ff=fc;if(!iO){var
-bv=ff;b$=1;ce=1}}else{var
-bv=cx;b$=1;ce=1}}if(!ce)var
-fh=0}else
+fe=fb;if(!iO){var
+bv=fe;b_=1;b$=1}}else{var
+bv=cw;b_=1;b$=1}}if(!b$)var
+fg=0}else
 var
-fh=cw;if(!b$){var
-fi=fh;eq=1}}else{var
-fi=fg;eq=1}if(eq)var
-bv=fi;if(!bv){var
-fS=p[1],cJ=p[5],fT=eV(j,p,t,z,u);if(fT){var
-kh=p[6],ki=2<=fS?yg:yh,cK=d1(j,ki,hH,kh);if(cK){var
+fg=cv;if(!b_){var
+fh=fg;eq=1}}else{var
+fh=ff;eq=1}if(eq)var
+bv=fh;if(!bv){var
+fP=p[1],cJ=p[5],fQ=eZ(j,p,t,z,u);if(fQ){var
+kg=p[6],kh=2<=fP?yw:yx,cK=d4(j,kh,hF,kg);if(cK){var
 bm=cK[1][1];if(typeof
 bm!=="number"&&16===bm[0]){var
-fW=bm[1],fY=i(j,0,fW);if(fY)var
-kj=f(p[2]),cL=n(f(b2),kj);else
+fT=bm[1],fV=i(j,0,fT);if(fV)var
+kj=f(p[2]),cL=m(f(b2),kj);else
 var
-cL=fY;if(cL){var
-kk=p[2],kl=V(V(t,hX(b2,e(function(a){var
-b=bJ(a[2]);return qk(b9(cJ,u,z,[0,bJ(a[1]),b]))},kk),fW)),b2),km=e(function(e){var
-c=e[1],d=c[2],a=c[1],f=dp(cJ,u,a[2]),g=a[1],h=M(function(b,a){return[3,b,a]},z,g),i=[2,d,qk(b9(cJ,u,z,a))];return[0,ec([5,[0,e[2],b],i]),d,h,f]},kl);return qj(j,[0,fS],bm[2],bm[3],km)}return cL}var
-fU=0}else
+cL=fV;if(cL){var
+kk=p[2],kl=N(N(t,h_(b2,e(function(a){var
+b=bM(a[2]);return qy(ca(cJ,u,z,[0,bM(a[1]),b]))},kk),fT)),b2),km=e(function(e){var
+c=e[1],d=c[2],a=c[1],f=ds(cJ,u,a[2]),g=a[1],h=M(function(b,a){return[3,b,a]},z,g),i=[2,d,qy(ca(cJ,u,z,a))];return[0,ef([5,[0,e[2],b],i]),d,h,f]},kl);return qx(j,[0,fP],bm[2],bm[3],km)}return cL}var
+fR=0}else
 var
-fU=cK;var
-fV=fU}else
+fR=cK;var
+fS=fR}else
 var
-fV=fT;return fV}var
-hJ=bv}else
+fS=fQ;return fS}var
+hG=bv}else
 var
-hJ=b1;return hJ}var
-hD=0}var
+hG=b1;return hG}var
+hA=0}var
+hD=hA}else
+var
+hD=dR;var
 hE=hD}else
 var
-hE=dQ;var
-hG=hE}else
-var
-hG=hC;return hG;default:return 0}case
+hE=hz;return hE;default:return 0}case
 3:var
 av=a[7],bw=a[6],bx=a[5],aw=a[4],dW=a[3],aS=a[2],aT=a[1],aU=w[2];switch(aU[0]){case
 0:var
-hZ=aU[3],h0=ik(kF(k7(aT,aS,dW,aw,bx,bw,av)[1])),mH=f(hZ),dX=ek(f(aT),h0,h0,0,mH,hZ);if(dX){var
-h1=dX[1];if(h1[2])return 0;var
-h4=rf(aT,aS,aw,bx,bw,av);if(h4){var
-mI=h1[1],$=k7(aT,aS,dW,aw,bx,bw,av),mJ=en(0,EC,f(aw),0,av),h5=il(aU[2]),aV=aU[1],eQ=p2($[1]);if(eQ)var
-jq=$[1][2],cq=l(function(a){return bE(j,a[2][1],a[2][2])},jq);else
+hQ=aU[3],hR=iy(kI(k_(aT,aS,dW,aw,bx,bw,av)[1])),mH=f(hQ),dX=em(f(aT),hR,hR,0,mH,hQ);if(dX){var
+hT=dX[1];if(hT[2])return 0;var
+hU=rt(aT,aS,aw,bx,bw,av);if(hU){var
+mI=hT[1],ab=k_(aT,aS,dW,aw,bx,bw,av),mJ=ep(0,ES,f(aw),0,av),hW=iz(aU[2]),aV=aU[1],eQ=qe(ab[1]);if(eQ)var
+jq=ab[1][2],cq=l(function(a){return bH(j,a[2][1],a[2][2])},jq);else
 var
 cq=eQ;if(cq)var
-jr=$[2],cr=l(function(a){return bE(j,a[1],a[2])},jr);else
+jr=ab[2],cr=l(function(a){return bH(j,a[1],a[2])},jr);else
 var
 cr=cq;if(cr){var
-B=$[1],ba=f(B[1]),bC=$[3],cj=f(B[2]),ey=N(cj,f(f5(e(aJ,B[3])))),i5=B[3],ez=pY(hR(B),i5,cj),H=kD(ba,ez,B[4],ey),i6=kB(ez,B[4],ey),i7=B[3],eA=g(kA(hR(B),i7,cj),i6),eB=f(kF(B)),eC=kE(B[2]),eD=e(function(a){return a[4]},H),i8=g(eA,dr(function(b,a){if(typeof
+B=ab[1],ba=f(B[1]),bC=ab[3],cj=f(B[2]),ey=O(cj,f(gc(e(aK,B[3])))),i5=B[3],ez=qa(h4(B),i5,cj),H=kG(ba,ez,B[4],ey),i6=kE(ez,B[4],ey),i7=B[3],eA=g(kD(h4(B),i7,cj),i6),eB=f(kI(B)),eC=kH(B[2]),eD=e(function(a){return a[4]},H),i8=g(eA,du(function(b,a){if(typeof
 a!=="number"&&16===a[0]){var
-c=ea(H);return pD(eC,e(function(a){return a[3]},H),c,eD)}return pT(H,b,a)},0,d,eB,bC)),i9=g(bF(ea(H)),i8),eE=g(bF(e2(H)),i9),eF=db(eE),eG=da(eF),aA=cP(eG),i_=function(c,a){if(typeof
+c=ed(H);return pR(eC,e(function(a){return a[3]},H),c,eD)}return p7(H,b,a)},0,d,eB,bC)),i9=g(bI(ed(H)),i8),eE=g(bI(e6(H)),i9),eF=dd(eE),eG=dc(eF),ay=cS(eG),i_=function(c,a){if(typeof
 a!=="number"&&16===a[0]){var
 f=B[4];if(l(function(a){return 0===a[0]?0:1},f)){var
-g=a[2],h=a[1],i=[0,J(aV,b)],j=ea(H);return pE(aV,aA,ba,ba,xE,0,eC,d,e(function(a){return a[3]},H),j,eD,i,h,g)}return xF}return pU(aV,aA,H,0,d,c,a)},eH=n(f($[2]),ba);if(eH)var
-i$=B[4],ck=l(function(a){return 0===a[0]?n(f(a[1]),ba):1},i$);else
+g=a[2],h=a[1],i=[0,L(aV,b)],j=ed(H);return pS(aV,ay,ba,ba,xU,0,eC,d,e(function(a){return a[3]},H),j,eD,i,h,g)}return xV}return p8(aV,ay,H,0,d,c,a)},eH=m(f(ab[2]),ba);if(eH)var
+i$=B[4],ck=l(function(a){return 0===a[0]?m(f(a[1]),ba):1},i$);else
 var
 ck=eH;var
 eI=ck?l(function(a){var
-b=m(d);return a0(r(h(aA,a),eG,b),a)},eE):ck,eJ=eI?aj(pV,bC):eI;if(eJ){var
-eK=I($[4]);if(eK)var
+b=n(d);return a2(q(h(ay,a),eG,b),a)},eE):ck,eJ=eI?ag(p9,bC):eI;if(eJ){var
+eK=J(ab[4]);if(eK)var
 bD=eK;else
 var
 jp=B[4],bD=l(function(a){return 0===a[0]?0:1},jp)}else
 var
 bD=eJ;if(bD){var
-ja=kF(B),cl=ac(e(function(a){return ar(aV,a)},ja));if(cl){var
-jb=0,jc=y(function(a){return fX(jb,d,a)},bC),cm=ac(e(function(a){return hz(aV,a)},jc));if(cm){var
-jd=$[2],cn=ac(e(function(a){return ar(aV,[0,a,d])},jd));if(cn){var
-co=ac(dr(i_,0,d,eB,bC));if(co){var
-eL=co[1];if($[4])var
-je=h5[2],jf=h5[1],jg=ea(H),cp=jV(mJ,eL,[8,h(az(aA),jg),jf,je]);else
+ja=kI(B),cl=ad(e(function(a){return au(aV,a)},ja));if(cl){var
+jb=0,jc=y(function(a){return f6(jb,d,a)},bC),cm=ad(e(function(a){return hM(aV,a)},jc));if(cm){var
+jd=ab[2],cn=ad(e(function(a){return au(aV,[0,a,d])},jd));if(cn){var
+co=ad(du(i_,0,d,eB,bC));if(co){var
+eL=co[1];if(ab[4])var
+je=hW[2],jf=hW[1],jg=ed(H),cp=jY(mJ,eL,[8,h(aB(ay),jg),jf,je]);else
 var
 cp=eL;var
-jh=jL(cp),ji=cn[1],jj=function(a){return 0},jk=g(cl[1],cm[1]),jl=e(aA,eA),jm=ea(H),jn=h(az(aA),jm),jo=e2(H);return fd(jK(aV,eF,h(az(aA),jo),jn,jl,jk,cp,jj),ji,jh,mI)}var
+jh=jO(cp),ji=cn[1],jj=function(a){return 0},jk=g(cl[1],cm[1]),jl=e(ay,eA),jm=ed(H),jn=h(aB(ay),jm),jo=e6(H);return fi(jN(aV,eF,h(aB(ay),jo),jn,jl,jk,cp,jj),ji,jh,mI)}var
 eM=co}else
 var
 eM=cn;var
@@ -8849,137 +9041,137 @@ eO=cl;var
 eP=eO}else
 var
 eP=bD;return eP}return cr}var
-h7=h4}else
+hX=hU}else
 var
-h7=dX;return h7;case
+hX=dX;return hX;case
 1:var
-aa=aU[4],h_=aU[3],b5=aU[2],A=k7(aT,aS,dW,aw,bx,bw,av),mK=e(k,h_),h$=bt(e(aJ,aS),mK);if(h$[2])return 0;var
-D=h$[1],ia=gj(e(aJ,aS),h_),ib=ia?rf(aT,aS,aw,bx,bw,av):ia,ig=ib?p2(A[1]):ib;if(ig)var
-mL=A[2],dZ=l(function(a){return bE(j,a[1],a[2])},mL);else
+ac=aU[4],hY=aU[3],b4=aU[2],A=k_(aT,aS,dW,aw,bx,bw,av),mK=e(k,hY),hZ=bu(e(aK,aS),mK);if(hZ[2])return 0;var
+E=hZ[1],h0=gs(e(aK,aS),hY),h1=h0?rt(aT,aS,aw,bx,bw,av):h0,h2=h1?qe(A[1]):h1;if(h2)var
+mL=A[2],dY=l(function(a){return bH(j,a[1],a[2])},mL);else
 var
-dZ=ig;if(dZ){if(typeof
-aa!=="number")switch(aa[0]){case
+dY=h2;if(dY){if(typeof
+ac!=="number")switch(ac[0]){case
 2:var
-d4=e(k,aa[1]),d5=e(k,b5),aE=A[1],bK=hS(aE),jX=p5(aE),fk=e(function(a){return a[3]},jX),fl=function(a){var
-b=p6(aE,D);function
-c(c){return eb(a,b,c)}return e(function(a){return e(c,a)},fk)},fm=ca(j,e(aJ,aE[2]),D),fn=fm?ca(j,A[2],d5):fm,fo=fn?ca(j,A[2],d4):fn,fp=fo?n(f(d5),bK):fo,fq=fp?n(f(d4),bK):fp,fr=fq?p7(aE,aE[4]):fq,fs=fr?n(f(aE[4]),bK):fr,ft=fs?l(function(a){return l(kH,a)},fk):fs;if(ft){var
-jY=fl(d4);return kx(j,bK,fl(d5),jY)}return ft;case
+d3=e(k,ac[1]),d5=e(k,b4),aC=A[1],bG=h5(aC),jU=qh(aC),fk=e(function(a){return a[3]},jU),fl=function(a){var
+b=qi(aC,E);function
+c(c){return ee(a,b,c)}return e(function(a){return e(c,a)},fk)},fm=cd(j,e(aK,aC[2]),E),fn=fm?cd(j,A[2],d5):fm,fo=fn?cd(j,A[2],d3):fn,fp=fo?m(f(d5),bG):fo,fq=fp?m(f(d3),bG):fp,fr=fq?qj(aC,aC[4]):fq,fs=fr?m(f(aC[4]),bG):fr,ft=fs?l(function(a){return l(kK,a)},fk):fs;if(ft){var
+jV=fl(d3);return kA(j,bG,fl(d5),jV)}return ft;case
 3:var
-d6=c2(aa[2]);if(d6){var
-a9=d6[1],d7=c2(aa[3]);if(d7){var
-bA=d7[1],mN=en(0,EE,f(aw),0,av),ir=n(aa[1],mN);if(ir){var
-mO=aa[5],mP=aa[4],mQ=im(ab(d,f(aT)),a9,bA,mP,mO),bB=e(k,b5),aG=A[1],go=kL(0,a9,bA),gp=A[4],gq=gp?ca(j,e(aJ,aG[2]),D):gp,gr=gq?ca(j,A[2],bB):gq;if(gr)var
-kw=e(bb,a9),cU=ca(j,A[2],kw);else
+d6=c5(ac[2]);if(d6){var
+a9=d6[1],d7=c5(ac[3]);if(d7){var
+bA=d7[1],mN=ep(0,EU,f(aw),0,av),ib=m(ac[1],mN);if(ib){var
+mO=ac[5],mP=ac[4],mQ=iA($(d,f(aT)),a9,bA,mP,mO),bB=e(k,b4),aG=A[1],gg=kO(0,a9,bA),gj=A[4],gk=gj?cd(j,e(aK,aG[2]),E):gj,gl=gk?cd(j,A[2],bB):gk;if(gl)var
+kw=e(bc,a9),cV=cd(j,A[2],kw);else
 var
-cU=gr;if(cU)var
-ky=e(bb,bA),cW=ca(j,A[2],ky);else
+cV=gl;if(cV)var
+kx=e(bc,bA),cW=cd(j,A[2],kx);else
 var
-cW=cU;var
-gs=cW?hV(a9,bA):cW,gt=gs?e4(j,a9,bA,bB):gs,gu=gt?e3(g(D,bB)):gt;if(gu)var
-kz=aG[3],cX=l(function(a){return f$(a[2])},kz);else
+cW=cV;var
+gm=cW?h8(a9,bA):cW,gq=gm?e8(j,a9,bA,bB):gm,gu=gq?e7(g(E,bB)):gq;if(gu)var
+ky=aG[3],cX=l(function(a){return gi(a[2])},ky);else
 var
 cX=gu;if(cX){var
-cZ=kT(aG[4]);if(cZ){var
-bO=cZ[1],gv=l(f$,bO);if(gv)var
-kC=1,c0=qm(function(a){return i(j,kC,a)},aG,D,bB,bO);else
+cZ=kW(aG[4]);if(cZ){var
+bO=cZ[1],gv=l(gi,bO);if(gv)var
+kz=1,c0=qA(function(a){return i(j,kz,a)},aG,E,bB,bO);else
 var
 c0=gv;if(c0)var
-kG=f(a9),c3=qm(function(a){return kM(j,kG,a)},aG,D,go,bO);else
+kB=f(a9),c2=qA(function(a){return kP(j,kB,a)},aG,E,gg,bO);else
 var
-c3=c0;if(c3)return hU(j,e(function(a){var
-b=a3(f_(aG,D,bB),a);return[3,a3(f_(aG,D,go),a),b]},bO),mQ);var
-gw=c3}else
+c2=c0;if(c2)return h7(j,e(function(a){var
+b=a4(gh(aG,E,bB),a);return[3,a4(gh(aG,E,gg),a),b]},bO),mQ);var
+gw=c2}else
 var
 gw=cZ;var
 gx=gw}else
 var
 gx=cX;return gx}var
-is=ir}else
+ic=ib}else
 var
-is=d7;var
-it=is}else
+ic=d7;var
+ig=ic}else
 var
-it=d6;return it}var
-d0=lm(0,ED,f(aw),0,av,aa);if(d0){var
-by=d0[1],aW=e(k,b5),L=A[1],eS=hS(L),bc=p5(L),jy=p3(L),jz=L[4],jA=kB(p4(L),jz,jy),jB=f(L[2]),jC=L[3],eR=g(kA(hR(L),jC,jB),jA),bd=p6(L,D),eT=ca(j,e(aJ,L[2]),D),eU=eT?ca(j,A[2],aW):eT,eW=eU?n(f(aW),eS):eU,eX=eW?p7(L,L[4]):eW,eY=eX?l(kH,g(y(xJ,bc),eR)):eX;if(eY)var
+ig=d6;return ig}var
+dZ=lp(0,ET,f(aw),0,av,ac);if(dZ){var
+by=dZ[1],aX=e(k,b4),K=A[1],eS=h5(K),bb=qh(K),jy=qf(K),jz=K[4],jA=kE(qg(K),jz,jy),jB=f(K[2]),jC=K[3],eR=g(kD(h4(K),jC,jB),jA),bd=qi(K,E),eT=cd(j,e(aK,K[2]),E),eU=eT?cd(j,A[2],aX):eT,eV=eU?m(f(aX),eS):eU,eW=eV?qj(K,K[4]):eV,eX=eW?l(kK,g(y(xZ,bb),eR)):eW;if(eX)var
 jD=A[3],js=e(function(a){var
-b=a[1];return[0,e(function(a){return eb(aW,bd,a)},b)]},bc),jt=y(function(c){var
+b=a[1];return[0,e(function(a){return ee(aX,bd,a)},b)]},bb),jt=y(function(c){var
 a=c[1];switch(a[0]){case
 7:var
-b=eb(aW,bd,a[2]);return[0,[4,b,b],0];case
-9:return[0,eb(aW,bd,a[1]),0];default:return 0}},eR),ju=function(a){return a},jv=0,jw=e(function(a){return 0},bc),jx=e(function(b){var
+b=ee(aX,bd,a[2]);return[0,[4,b,b],0];case
+9:return[0,ee(aX,bd,a[1]),0];default:return 0}},eR),ju=function(a){return a},jv=0,jw=e(function(a){return 0},bb),jx=e(function(b){var
 a=b[4];if(typeof
-a!=="number"&&0===a[0])return[0,eb(aW,bd,a[1])];return 0},bc),d2=jW(j,xK,eS,[0,e(function(a){var
-b=a[3];return e(function(a){return eb(aW,bd,a)},b)},bc),jx,jw,jv,ju,jt,js],jD,by);else
+a!=="number"&&0===a[0])return[0,ee(aX,bd,a[1])];return 0},bb),d0=jZ(j,x0,eS,[0,e(function(a){var
+b=a[3];return e(function(a){return ee(aX,bd,a)},b)},bb),jx,jw,jv,ju,jt,js],jD,by);else
 var
-d2=eY;if(d2)var
-io=d2;else{if(typeof
+d0=eX;if(d0)var
+h3=d0;else{if(typeof
 by!=="number"&&0===by[0]){var
-b7=by[2];if(b7){if(b7[2])return 0;var
-d3=b7[1],mM=by[1],bz=e(k,b5),aF=A[1],bL=f(aF[1]),fZ=ca(j,e(aJ,aF[2]),D),f0=fZ?ca(j,A[2],bz):fZ,f2=f0?n(f(bz),bL):f0,f4=f2?dw(g(D,bz)):f2;if(f4)var
-kn=aF[3],cN=l(function(a){return f$(a[2])},kn);else
+b5=by[2];if(b5){if(b5[2])return 0;var
+d2=b5[1],mM=by[1],bz=e(k,b4),aF=A[1],bJ=f(aF[1]),fW=cd(j,e(aK,aF[2]),E),fX=fW?cd(j,A[2],bz):fW,fY=fX?m(f(bz),bJ):fX,f1=fY?dz(g(E,bz)):fY;if(f1)var
+kn=aF[3],cM=l(function(a){return gi(a[2])},kn);else
 var
-cN=f4;if(cN){var
-cO=d1(j,yj,mM,A[3]);if(cO){var
-bM=cO[1][1];if(typeof
-bM!=="number"&&16===bM[0]){var
-f8=bM[2],f9=bM[1],cQ=kT(aF[4]);if(cQ){var
-bN=cQ[1],cS=hY(aC(cY,f8));if(cS){var
-ko=cS[1],ga=i(j,1,f8),gb=ga?i(j,0,f9):ga;if(gb)var
-kq=f(bN),cT=n(f(d3),kq);else
+cM=f1;if(cM){var
+cN=d4(j,yz,mM,A[3]);if(cN){var
+bL=cN[1][1];if(typeof
+bL!=="number"&&16===bL[0]){var
+f4=bL[2],f5=bL[1],cO=kW(aF[4]);if(cO){var
+bN=cO[1],cP=h$(aD(c1,f4));if(cP){var
+ko=cP[1],f7=i(j,1,f4),f8=f7?i(j,0,f5):f7;if(f8)var
+kp=f(bN),cT=m(f(d2),kp);else
 var
-cT=gb;var
-gc=cT?l(f$,bN):cT;if(gc){var
-kr=aF[2],ks=f_(aF,e(function(a){return ed(a[2])},kr),bz),gd=hX(d3,e(function(a){return a3(ks,a)},bN),f9),gh=dw(gd);if(gh){var
-kt=V(bz,aB(0,bL)),ku=f_(aF,D,e(function(a){var
-b=cy(a[2],ko);return[2,a[1],b]},kt)),kv=V(V(e(function(a){return a3(ku,a)},bN),gd),d3);return kR(j,bL,bL,e5(function(a){return[4,[0,a[2],b],[3,a[1][1],a[1][2]]]},kv))}var
-gl=gh}else
+cT=f8;var
+f9=cT?l(gi,bN):cT;if(f9){var
+kq=aF[2],kr=gh(aF,e(function(a){return eg(a[2])},kq),bz),f$=h_(d2,e(function(a){return a4(kr,a)},bN),f5),gb=dz(f$);if(gb){var
+kt=N(bz,aA(0,bJ)),ku=gh(aF,E,e(function(a){var
+b=cC(a[2],ko);return[2,a[1],b]},kt)),kv=N(N(e(function(a){return a4(ku,a)},bN),f$),d2);return kU(j,bJ,bJ,e9(function(a){return[4,[0,a[2],b],[3,a[1][1],a[1][2]]]},kv))}var
+gd=gb}else
 var
-gl=gc;var
-gm=gl}else
+gd=f9;var
+ge=gd}else
 var
-gm=cS;var
-gn=gm}else
+ge=cP;var
+gf=ge}else
 var
-gn=cQ;return gn}var
-f6=0}else
+gf=cO;return gf}var
+f2=0}else
 var
-f6=cO;var
-f7=f6}else
+f2=cN;var
+f3=f2}else
 var
-f7=cN;return f7}return b7}var
-io=0}var
-ip=io}else
+f3=cM;return f3}return b5}var
+h3=0}var
+h6=h3}else
 var
-ip=d0;var
-iq=ip}else
+h6=dZ;var
+ia=h6}else
 var
-iq=dZ;return iq;default:return 0}case
+ia=dY;return ia;default:return 0}case
 4:var
-aX=a[3],a_=a[2],b8=a[1],aY=w[2];switch(aY[0]){case
+aY=a[3],a_=a[2],b6=a[1],aZ=w[2];switch(aZ[0]){case
 0:var
-mR=aY[3],mS=aY[2],mT=aY[1],hb=dC(k(b8));if(hb){var
-dE=qX(aX);if(dE){var
-hc=dE[1],bp=hc[2],hd=k(bp),he=k(hc[1]),gB=i(j,1,k(a_)),gC=gB?i(j,1,[3,hd,[0,b,b]]):gB,gD=gC?i(j,1,he):gC,hf=gD?i(j,0,[3,[5,[0,b,b],hd],he]):gD,hg=hf?l(function(a){var
-b=qT(0,0,EA,a);if(b)var
+mR=aZ[3],mS=aZ[2],mT=aZ[1],hb=dG(k(b6));if(hb){var
+dE=q$(aY);if(dE){var
+hc=dE[1],bo=hc[2],hd=k(bo),he=k(hc[1]),gB=i(j,1,k(a_)),gC=gB?i(j,1,[3,hd,[0,b,b]]):gB,gD=gC?i(j,1,he):gC,hf=gD?i(j,0,[3,[5,[0,b,b],hd],he]):gD,hg=hf?l(function(a){var
+b=q7(0,0,EQ,a);if(b)var
 c=b;else{var
-d=c1(a);if(d)return aK(0,0,a);var
-c=d}return c},aX):hf,hh=hg?l(function(c){if(1===c[1]){var
+d=c4(a);if(d)return aM(0,0,a);var
+c=d}return c},aY):hf,hh=hg?l(function(c){if(1===c[1]){var
 a=c[4];if(typeof
-a!=="number"&&0===a[0])return i(j,0,[3,[0,d,b],k(a[1])]);return 1}return 1},aX):hg;if(hh){var
-dn=aZ(function(a){return I(qY(a))},aX);if(dn){var
-md=[0,c(2,b),b],bS=i(j,0,[3,k(bp),md]);if(bS)var
-dF=bS;else
+a!=="number"&&0===a[0])return i(j,0,[3,[0,d,b],k(a[1])]);return 1}return 1},aY):hg;if(hh){var
+dp=aW(function(a){return J(ra(a))},aY);if(dp){var
+md=[0,c(2,b),b],bR=i(j,0,[3,k(bo),md]);if(bR)var
+dF=bR;else
 var
-mg=k(bp),dF=i(j,0,[3,[0,c(2,b),b],mg]);if(dF){var
-ma=y(function(a){if(c1(a))return Ew;var
-b=h9(0,Ex,0,a);return y(function(b){var
-c=fQ(j,Ey,b);return ab(I(qY(a)),c)},b)},aX),mb=function(f){var
-a=gk(ma,f[1]);if(a){var
+mg=k(bo),dF=i(j,0,[3,[0,c(2,b),b],mg]);if(dF){var
+ma=y(function(a){if(c4(a))return EM;var
+b=il(0,EN,0,a);return y(function(b){var
+c=fZ(j,EO,b);return $(J(ra(a)),c)},b)},aY),mb=function(f){var
+a=gt(ma,f[1]);if(a){var
 c=a[1],e=f[2];switch(e[0]){case
 0:return[0,[0,c,[0,e[1]]],0];case
-2:return[0,[0,c,[1,Ez,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},mc=e(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,y(mb,a[1]),d,c,b]},mR),me=[0,dn[1],dn[2]],mf=q2(bS,a_,bp);return lp(0,q1(bS,b8,a_,bp),0,mf,0,me,mT,mS,mc)}return dF}var
+2:return[0,[0,c,[1,EP,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},mc=e(function(a){var
+b=a[4],c=a[3],d=a[2];return[0,y(mb,a[1]),d,c,b]},mR),me=[0,dp[1],dp[2]],mf=re(bR,a_,bo);return ls(0,rd(bR,b6,a_,bo),0,mf,0,me,mT,mS,mc)}return dF}var
 hi=1}else
 var
 hi=hh;var
@@ -8990,36 +9182,36 @@ hk=hj}else
 var
 hk=hb;return hk;case
 1:var
-mU=aY[4],mV=aY[3],mW=aY[2],hl=dC(k(b8));if(hl){var
-dG=qX(aX);if(dG){var
-bq=dG[1][2],mh=[0,c(2,b),b],bT=i(j,0,[3,k(bq),mh]),hm=i(j,1,k(a_)),hn=hm?i(j,1,[3,k(bq),[0,b,b]]):hm;if(hn)if(bT)var
-bU=bT;else
+mU=aZ[4],mV=aZ[3],mW=aZ[2],hl=dG(k(b6));if(hl){var
+dH=q$(aY);if(dH){var
+bq=dH[1][2],mh=[0,c(2,b),b],bS=i(j,0,[3,k(bq),mh]),hm=i(j,1,k(a_)),hn=hm?i(j,1,[3,k(bq),[0,b,b]]):hm;if(hn)if(bS)var
+bT=bS;else
 var
-mj=k(bq),bU=i(j,0,[3,[0,c(2,b),b],mj]);else
+mj=k(bq),bT=i(j,0,[3,[0,c(2,b),b],mj]);else
 var
-bU=hn;if(bU){var
-mi=q2(bT,a_,bq);return lq(0,q1(bT,b8,a_,bq),0,mi,0,aX,mW,mV,mU)}var
-hq=bU}else
+bT=hn;if(bT){var
+mi=re(bS,a_,bq);return lt(0,rd(bS,b6,a_,bq),0,mi,0,aY,mW,mV,mU)}var
+ho=bT}else
 var
-hq=dG;var
-hr=hq}else
+ho=dH;var
+hp=ho}else
 var
-hr=hl;return hr;default:return 0}case
+hp=hl;return hp;default:return 0}case
 5:var
-d8=a[4],iu=a[1],d9=w[2];if(0===d9[0]){var
-iv=d9[3],C=h8(iu,[0,a[2],a[3]],0,d8),mX=f(iv),d_=lh(ln(C),mX,iv);if(d_){var
-iw=d_[1];if(iw[2])return 0;var
-ix=ij(iu,0,d8,C),iy=ix?I(aj(c1,d8)):ix;if(iy){var
-iz=or(j,C);if(iz){var
-mY=iw[1],iA=e(id,C[1]),U=ie(C[1]),iB=k(a[5]),ax=d9[1],c7=ho(U,iA,C[1]),ag=jM(U,iA,C[1],0),kV=f(C[3]),kW=N(f(c7),kV),bP=[0,f(c7),kW],kX=jO(ag,U,bP,C[3]),kY=g(e(df,ag),kX),gF=g(bF(fC(ag)),kY),gG=db(gF),gH=da(gG),a6=cP(gH),gI=C[2];if(0===gI[0]){var
+d8=a[4],ih=a[1],d9=w[2];if(0===d9[0]){var
+ij=d9[3],C=ik(ih,[0,a[2],a[3]],0,d8),mX=f(ij),d_=lk(lq(C),mX,ij);if(d_){var
+im=d_[1];if(im[2])return 0;var
+io=ix(ih,0,d8,C),ip=io?J(ag(c4,d8)):io;if(ip){var
+iq=oF(j,C);if(iq){var
+mY=im[1],iu=e(is,C[1]),V=it(C[1]),iB=k(a[5]),ax=d9[1],c8=hB(V,iu,C[1]),ah=jP(V,iu,C[1],0),kT=f(C[3]),kV=O(f(c8),kT),bP=[0,f(c8),kV],kX=jR(ah,V,bP,C[3]),kY=g(e(di,ah),kX),gF=g(bI(fJ(ah)),kY),gG=dd(gF),gH=dc(gG),a6=cS(gH),gI=C[2];if(0===gI[0]){var
 gJ=l(function(a){var
-b=m(d);return a0(r(h(a6,a),gH,b),a)},gF),gK=gJ?i(j,1,iB):gJ;if(gK){var
-kZ=C[3],k0=y(function(a){return dY(U,a)},kZ),k1=C[3],k2=g(c7,g(e(function(a){return b6(U,a)},k1),k0)),c8=ac(e(function(a){return ar(ax,a)},k2));if(c8){var
-k3=bh(gI[1],U),c9=ac(e(function(a){return ar(ax,a)},k3));if(c9){var
-c$=dd(ax,U,[5,iB,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(c$){var
-dc=C[3],k8=c9[1],la=c8[1],lb=c$[1],kQ=aB(0,f(dc)),kS=e(function(k){var
-l=E(dc,k);if(l){var
-a=l[1],u=ao(k,dc),v=f(y(function(a){return dY(U,a)},u)),w=N(bP[2],v),j=[0,N(bP[1],k),w],r=fC(ag),g=h(az(a6),r),c=[1,[8,[1,[1,j[1]]]]],d=hp(ag,U,j,a),n=d?[0,[3,e(a6,[0,d[1],d[2]])]]:d,m=0;if(typeof
+b=n(d);return a2(q(h(a6,a),gH,b),a)},gF),gK=gJ?i(j,1,iB):gJ;if(gK){var
+kZ=C[3],k0=y(function(a){return d1(V,a)},kZ),k1=C[3],k2=g(c8,g(e(function(a){return b9(V,a)},k1),k0)),c9=ad(e(function(a){return au(ax,a)},k2));if(c9){var
+k3=bi(gI[1],V),c_=ad(e(function(a){return au(ax,a)},k3));if(c_){var
+c$=df(ax,V,[5,iB,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(c$){var
+da=C[3],k4=c_[1],k5=c9[1],k6=c$[1],kF=aA(0,f(da)),kJ=e(function(k){var
+l=F(da,k);if(l){var
+a=l[1],u=aq(k,da),v=f(y(function(a){return d1(V,a)},u)),w=O(bP[2],v),j=[0,O(bP[1],k),w],r=fJ(ah),g=h(aB(a6),r),c=[1,[8,[1,[1,j[1]]]]],d=hC(ah,V,j,a),n=d?[0,[3,e(a6,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
 0:return[0,[0,g,c]];case
 1:return[0,[1,g,c]];case
@@ -9035,27 +9227,27 @@ q=c;m=1;break;case
 3:case
 6:case
 7:return n}if(m){var
-t=fL(ag,U,j,a);return x(function(a){return[0,h(az(a6),a),q]},t)}return 0}return l},kQ),kU=e(function(a){return h(a6,df(a))},ag),gE=e(function(a){return h(a6,a[2])},ag),lc=C[3],ld=bP[1],c6=function(aC,aB,aA){var
-k=aC,m=aB,g=aA;for(;;)switch(g[0]){case
+t=fU(ah,V,j,a);return x(function(a){return[0,h(aB(a6),a),q]},t)}return 0}return l},kF),kN=e(function(a){return h(a6,di(a))},ah),gE=e(function(a){return h(a6,a[2])},ah),k$=C[3],ld=bP[1],c7=function(aC,aB,aA){var
+k=aC,n=aB,g=aA;for(;;)switch(g[0]){case
 0:var
-v=g[1],_=n(f(v),yv),$=_?l(function(a){var
-d=F(R(c(2,c(2,c(2,b)))),a);return d?F(a,c(2,c(2,c(2,b)))):d},v):_;if($){var
-aa=qx(ax,lb,dU(0,m),v),j=g[2],w=c_(0,b4(ax,aa,e(ad,k)),gG),aD=e(ad,k),M=function(a){return qw(qv(ax,aa,aD,w,a))};if(typeof
-j==="number")return 0===j?aj(function(b){var
-a=r(b,w,0);return a?F(a[1][2][2],d):a},gE):0;else{if(0===j[0]){var
-a=j[2],O=l(yt,a);if(O){var
-q=r(j[1],kS,0);if(q){var
-i=q[1];switch(i[0]){case
+v=g[1],$=m(f(v),yL),aa=$?l(function(a){var
+d=D(U(c(2,c(2,c(2,b)))),a);return d?D(a,c(2,c(2,c(2,b)))):d},v):$;if(aa){var
+ab=qL(ax,k6,dj(0,n),v),j=g[2],w=cR(0,b7(ax,ab,e(_,k)),gG),aD=e(_,k),M=function(a){return qK(qJ(ax,ab,aD,w,a))};if(typeof
+j==="number")return 0===j?ag(function(b){var
+a=q(b,w,0);return a?D(a[1][2][2],d):a},gE):0;else{if(0===j[0]){var
+a=j[2],N=l(yJ,a);if(N){var
+r=q(j[1],kJ,0);if(r){var
+i=r[1];switch(i[0]){case
 0:var
 x=0;if(a)if(a[2])var
 h=0;else{var
-A=a[1],B=i[1],ao=h3(B,A),ap=h2(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],ap]],ao]],0]]];x=1}else{var
+A=a[1],B=i[1],ao=ie(B,A),ap=id(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],ap]],ao]],0]]];x=1}else{var
 C=a;x=1}if(x)var
 h=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 h=0;else{var
-D=a[1],G=i[1],aq=h2(D),ar=[1,[6,i[2],aq]],H=[0,[0,G,[0,[1,[4,h3(G,D),ar]],0]]];y=1}else{var
+E=a[1],G=i[1],aq=id(E),ar=[1,[6,i[2],aq]],H=[0,[0,G,[0,[1,[4,ie(G,E),ar]],0]]];y=1}else{var
 H=a;y=1}if(y)var
 h=H;break;case
 2:var
@@ -9063,7 +9255,7 @@ z=0;if(a){var
 o=a[2],an=0;if(o)if(o[2]){var
 h=0;an=1}else
 var
-I=o[1],J=a[1],p=i[1],as=h2(J),at=[1,[6,h3(p,I),as]],au=[1,[6,i[2],at]],av=h2(I),K=[0,[0,p,[0,[1,[4,[1,[6,h3(p,J),av]],au]],0]]];else
+I=o[1],J=a[1],p=i[1],as=id(J),at=[1,[6,ie(p,I),as]],au=[1,[6,i[2],at]],av=id(I),K=[0,[0,p,[0,[1,[4,[1,[6,ie(p,J),av]],au]],0]]];else
 var
 K=o;if(!an){var
 L=K;z=1}}else{var
@@ -9072,125 +9264,125 @@ h=L;break;default:if(a)var
 h=0;else
 var
 aw=i[1],h=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},aw)]]}if(h){var
-P=h[1],ay=P[1],Q=l(function(a){return qw(r(a[2],w,0))},ay);if(Q)return l(M,P[2]);var
-S=Q}else
+P=h[1],ay=P[1],Q=l(function(a){return qK(q(a[2],w,0))},ay);if(Q)return l(M,P[2]);var
+R=Q}else
 var
-S=h;var
+R=h;var
+S=R}else
+var
+S=r;var
 T=S}else
 var
-T=q;var
-U=T}else
-var
-U=O;return U}var
-V=j[2],W=j[1],s=E(lc,W);if(s){var
+T=N;return T}var
+V=j[2],W=j[1],s=F(k$,W);if(s){var
 X=s[1];if(typeof
 X!=="number"&&1===X[0]){var
-t=E(gE,V);if(t){var
-u=E(kU,V);if(u){var
-az=N(ld,W);return M([1,[4,[1,[8,[0,u[1]]]],[1,[6,[1,[8,[1,[1,az]]]],[0,t[1]]]]]])}var
+t=F(gE,V);if(t){var
+u=F(kN,V);if(u){var
+az=O(ld,W);return M([1,[4,[1,[8,[0,u[1]]]],[1,[6,[1,[8,[1,[1,az]]]],[0,t[1]]]]]])}var
 Z=u}else
 var
 Z=t;return Z}var
 Y=0}else
 var
-Y=s;return Y}}return $;case
+Y=s;return Y}}return aa;case
 1:var
-ab=g[1],ac=qy(ab,m);if(ac){var
-ae=dg(ab,m),af=c6(k,ae[1],g[2]);if(af){var
-m=ae[2],g=g[3];continue}var
-ag=af}else
+ac=g[1],ad=qM(ac,n);if(ad){var
+ae=dk(ac,n),af=c7(k,ae[1],g[2]);if(af){var
+n=ae[2],g=g[3];continue}var
+ah=af}else
 var
-ag=ac;return ag;default:var
-ah=g[1],ai=qy(ah,k);if(ai){var
-ak=dg(ah,k),al=c6(ak[1],m,g[2]);if(al){var
+ah=ad;return ah;default:var
+ai=g[1],aj=qM(ai,k);if(aj){var
+ak=dk(ai,k),al=c7(ak[1],n,g[2]);if(al){var
 k=ak[2],g=g[3];continue}var
 am=al}else
 var
-am=ai;return am}};return c6(la,k8,mY)}var
+am=aj;return am}};return c7(k5,k4,mY)}var
 gL=c$}else
 var
-gL=c9;var
+gL=c_;var
 gM=gL}else
 var
-gM=c8;var
+gM=c9;var
 gN=gM}else
 var
 gN=gK;return gN}return 0}var
-iC=iz}else
+iC=iq}else
 var
-iC=iy;var
+iC=ip;var
 iD=iC}else
 var
 iD=d_;return iD}return 0;case
 6:var
 iE=a[1];if(iE){var
 iF=iE[1],d$=w[2];if(0===d$[0]){var
-ee=lg(EG,0,0,0,EF,d$[3]);if(ee){var
-iG=gi(iF);if(iG){var
-mZ=ee[1],iH=cc(iF)[2],b_=d$[1],c4=dd(b_,d,iH);if(c4){var
-c5=dd(b_,d,[5,[0,b,b],iH]);if(c5){var
-kK=c4[1][1],gy=K(cM(b_),kK);if(gy)return qu(b_,c5[1][1],mZ);var
+ea=lj(EW,0,0,0,EV,d$[3]);if(ea){var
+iG=gr(iF);if(iG){var
+mZ=ea[1],iH=cf(iF)[2],b8=d$[1],c3=df(b8,d,iH);if(c3){var
+c6=df(b8,d,[5,[0,b,b],iH]);if(c6){var
+kC=c3[1][1],gy=I(cQ(b8),kC);if(gy)return qI(b8,c6[1][1],mZ);var
 gz=gy}else
 var
-gz=c5;var
+gz=c6;var
 gA=gz}else
 var
-gA=c4;return gA}var
+gA=c3;return gA}var
 iI=iG}else
 var
-iI=ee;return iI}return 0}var
-ef=w[2];if(0===ef[0]){var
-eh=lg(EI,0,0,0,EH,ef[3]);return eh?qu(ef[1],d,eh[1]):eh}return 0;default:var
+iI=ea;return iI}return 0}var
+eb=w[2];if(0===eb[0]){var
+ec=lj(EY,0,0,0,EX,eb[3]);return ec?qI(eb[1],d,ec[1]):ec}return 0;default:var
 a$=a[1],iJ=w[2];if(2===iJ[0]){var
-iK=iJ[1],ei=le(f(iK),iK);if(ei){var
-iL=ei[1];if(iL[2])return 0;var
-el=iL[1],g5=ae(Et,f(a$)),g6=g5?ae(f(a$),dR):g5,g7=g6?p1(e(at,a$)):g6,iM=g7?l(function(c){var
-a=cR(k(c[2][1]));if(a){var
-b=cR(k(c[2][2]));if(b)return I(bo(b[1],a[1]));var
+iK=iJ[1],eh=lh(f(iK),iK);if(eh){var
+iL=eh[1];if(iL[2])return 0;var
+ej=iL[1],g5=ae(EJ,f(a$)),g6=g5?ae(f(a$),dV):g5,g7=g6?qd(e(as,a$)):g6,iM=g7?l(function(c){var
+a=cU(k(c[2][1]));if(a){var
+b=cU(k(c[2][2]));if(b)return J(bp(b[1],a[1]));var
 d=b}else
 var
 d=a;return d},a$):g7;if(iM)var
-m0=ic(Dg,el),em=rn(a[5],m0);else
+m0=ir(Dw,ej),ek=rB(a[5],m0);else
 var
-em=iM;if(em)var
-m1=ic(Dh,el),eo=rn(a[6],m1);else
+ek=iM;if(ek)var
+m1=ir(Dx,ej),en=rB(a[6],m1);else
 var
-eo=em;if(eo){var
-lV=e(function(a){return[0,d,0]},a$);return rm(a$,a[2],a[3],a[4],lV,el)}var
-iN=eo}else
+en=ek;if(en){var
+lV=e(function(a){return[0,d,0]},a$);return rA(a$,a[2],a[3],a[4],lV,ej)}var
+iN=en}else
 var
-iN=ei;return iN}return 0}}return br}var
-Z=[bc,EL,tK(0)],rr=[bc,EM,tK(0)];function
-EJ(l,b){var
-f=[0,o(CE,av(b[4])),0],g=[0,o(CG,ak([0,o(CF,av(b[3])),f])),0],a=b[2];switch(a[0]){case
+iN=eh;return iN}return 0}}return br}var
+aa=[bd,E1,tY(0)],rF=[bd,E2,tY(0)];function
+EZ(l,b){var
+f=[0,o(CU,aw(b[4])),0],g=[0,o(CW,ak([0,o(CV,aw(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=T(CA,qF(a[1],a[2],a[3]));break;case
+c=V(CQ,qT(a[1],a[2],a[3]));break;case
 1:var
-c=T(CB,qG(a[1],a[2],a[3],a[4]));break;default:var
-c=T(CC,H(e(Cv,a[1])))}var
-h=[0,o(CH,c),g],i=1===b[2][0]?CN:CI,j=[0,o(CJ,av(i)),h],k=[0,o(CK,A7(b[1])),j],d=aI(mi(EK,h4(ak([0,o(CM,av(CL)),k]),CD)),l);return d?EB(b):d}function
-al(a){if(0===a[0])return a[1];throw Z}function
-ag(a){if(1===a[0])return a[1];throw Z}function
-a9(a){if(2===a[0])return a[1];throw Z}function
-gl(a){if(3===a[0])return a[1];throw Z}function
-bl(b,a){return mh(a,b)}function
+c=V(CR,qU(a[1],a[2],a[3],a[4]));break;default:var
+c=V(CS,K(e(CL,a[1])))}var
+h=[0,o(CX,c),g],i=1===b[2][0]?C3:CY,j=[0,o(CZ,aw(i)),h],k=[0,o(C0,Bl(b[1])),j],d=aJ(ml(E0,ig(ak([0,o(C2,aw(C1)),k]),CT)),l);return d?ER(b):d}function
+al(a){if(0===a[0])return a[1];throw aa}function
+af(a){if(1===a[0])return a[1];throw aa}function
+ba(a){if(2===a[0])return a[1];throw aa}function
+gu(a){if(3===a[0])return a[1];throw aa}function
+bm(b,a){return mk(a,b)}function
 w(c,b){var
-a=bl(c,b);if(a)return a[1];throw Z}function
-cA(b,a){var
+a=bm(c,b);if(a)return a[1];throw aa}function
+cE(b,a){var
 c=a?[0,h(b,a[1])]:a;return c}function
-eo(a){switch(a[0]){case
+eq(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],EO]}throw Z}function
-gm(e,d){var
-a=Y(e,ag(d));if(a){var
+2:return[0,a[1],E4]}throw aa}function
+gv(e,d){var
+a=Z(e,af(d));if(a){var
 b=a[2];if(b){var
-c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw Z}function
-io(i){var
-f=fq(i),d=[0,0],e=iS(f)-1|0;if(!(e<0)){var
+c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw aa}function
+iB(i){var
+f=fv(i),d=[0,0],e=i5(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=lW(f,c)-48|0;if(9<g>>>0)throw Z;switch(g){case
+a=d[1],g=lZ(f,c)-48|0;if(9<g>>>0)throw aa;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -9212,106 +9404,106 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-gn(a){return mz(io(a))}function
-fc(b){var
-a=gl(b);return 45===bd(a,0)?R(gn(ey(a,1,aE(a)-1|0))):gn(a)}function
-rs(a){return eA(gn(gl(a)))}function
-dE(b){var
-a=gl(b);if(!(2<aE(a))&&!(64<=iR(a)))return i5(gn(a));throw Z}function
-c3(c){var
-a=gl(c);if(6<aE(a))throw Z;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(iR(a))}function
-rt(a){var
-b=97<=a?1:0,c=b?a<=tm?1:0:b;if(c)var
+gw(a){return mC(iB(a))}function
+fg(b){var
+a=gu(b);return 45===be(a,0)?U(gw(eA(a,1,aG(a)-1|0))):gw(a)}function
+rG(a){return eC(gw(gu(a)))}function
+dI(b){var
+a=gu(b);if(!(2<aG(a))&&!(64<=i4(a)))return jg(gw(a));throw aa}function
+c6(c){var
+a=gu(c);if(6<aG(a))throw aa;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(i4(a))}function
+rH(a){var
+b=97<=a?1:0,c=b?a<=tA?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-ru(y,b){var
-d=aE(b),a=[0,0];function
+rI(y,b){var
+d=aG(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?bd(b,a[1])===e?1:0:c;return f}function
+c=a[1]<d?1:0,f=c?be(b,a[1])===e?1:0:c;return f}function
 l(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=bd(b,a[1])&&!(57<bd(b,a[1]))){a[1]++;continue}return ey(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=be(b,a[1])&&!(57<be(b,a[1]))){a[1]++;continue}return eA(b,c,a[1]-c|0)}}function
 m(b){a[1]++;var
-d=f(b+1|0);if(c(41)){a[1]++;return d}throw Z}function
-i(j){if(64<j)throw Z;if(c(45)){a[1]++;return[2,i(j+1|0)]}if(c(40))var
+d=f(b+1|0);if(c(41)){a[1]++;return d}throw aa}function
+i(j){if(64<j)throw aa;if(c(45)){a[1]++;return[2,i(j+1|0)]}if(c(40))var
 e=m(j);else{var
-u=0;if((a[1]+5|0)<=d&&aI(ey(b,a[1],5),EQ)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&aJ(eA(b,a[1],5),E6)){a[1]=a[1]+4|0;var
 e=[5,m(j)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&rt(bd(b,a[1]))){var
+v=0;if(a[1]<d&&rH(be(b,a[1]))){var
 n=a[1];for(;;){if(a[1]<d){var
-w=0;if(!rt(bd(b,a[1]))&&95!==bd(b,a[1])&&(!(48<=bd(b,a[1]))||57<bd(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-e=[1,h(y,ey(b,n,a[1]-n|0))];break}}else
+w=0;if(!rH(be(b,a[1]))&&95!==be(b,a[1])&&(!(48<=be(b,a[1]))||57<be(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+e=[1,h(y,eA(b,n,a[1]-n|0))];break}}else
 v=1;if(v){var
-g=l(0),o=c(46),q=o?(a[1]++,[0,l(0)]):o,r=aI(g,ER);if(r)var
+g=l(0),o=c(46),q=o?(a[1]++,[0,l(0)]):o,r=aJ(g,E7);if(r)var
 s=r;else
 var
-t=1<aE(g)?1:0,s=t?48===bd(g,0)?1:0:t;if(s)throw Z;if(q){var
-k=q[1],x=0;if(aI(k,ES)||48===bd(k,aE(k)-1|0))x=1;else
+t=1<aG(g)?1:0,s=t?48===be(g,0)?1:0:t;if(s)throw aa;if(q){var
+k=q[1],x=0;if(aJ(k,E8)||48===be(k,aG(k)-1|0))x=1;else
 var
-z=io(k),e=[0,io(g),z];if(x)throw Z}else
+z=iB(k),e=[0,iB(g),z];if(x)throw aa}else
 var
-e=[0,io(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(p(f,EP)){if(!(2<aE(f))&&2<=iR(f)&&!(64<iR(f)))return[4,e,eA(gn(f))];throw Z}throw Z}return e}function
+e=[0,iB(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(p(f,E5)){if(!(2<aG(f))&&2<=i4(f)&&!(64<i4(f)))return[4,e,eC(gw(f))];throw aa}throw aa}return e}function
 e(d){var
 b=i(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,i(d)];continue}if(c(47)){a[1]++;var
 b=[3,3,b,i(d)];continue}return b}}function
-f(d){if(64<d)throw Z;var
+f(d){if(64<d)throw aa;var
 b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
-g=f(0);if(a[1]<d)throw Z;return g}function
-ip(a){return ru(function(a){return[0,a]},a)}function
-ls(a){var
-b=a9(a);return ru(function(a){return a},b)}function
-_(a){return ip(a9(a))}function
-ce(a){if(2===a[0])return[0,ip(a[1])];var
-b=al(a),c=_(w(b,ET));return[1,_(w(b,EU)),c]}function
-ap(a){throw[0,rr,bn(mi(EW,a),EV)]}function
-lt(c){var
-a=a9(c);if(p(a,EX)){var
-b=p(a,EY);if(b)throw Z;return b}return 1}function
-EZ(d){var
-b=al(d);function
-a(a){return gm(ce,w(b,a))}var
-c=a9(w(b,E0));if(p(c,E1)){if(p(c,E2)){if(p(c,E3))return ap([0,E5,[0,c,E4]]);var
-e=bl(b,E6),f=cA(function(a){return gm(ce,a)},e),g=a(E7);return[1,a(E8),g,f]}var
-h=lt(w(b,E9)),i=ce(w(b,E_)),j=a(E$),k=a(Fa);return[0,a(Fb),k,j,i,h]}return[2,a(Fc)]}function
+g=f(0);if(a[1]<d)throw aa;return g}function
+iC(a){return rI(function(a){return[0,a]},a)}function
+lv(a){var
+b=ba(a);return rI(function(a){return a},b)}function
+ab(a){return iC(ba(a))}function
+ch(a){if(2===a[0])return[0,iC(a[1])];var
+b=al(a),c=ab(w(b,E9));return[1,ab(w(b,E_)),c]}function
+ar(a){throw[0,rF,bo(ml(Fa,a),E$)]}function
+lw(c){var
+a=ba(c);if(p(a,Fb)){var
+b=p(a,Fc);if(b)throw aa;return b}return 1}function
 Fd(d){var
+b=al(d);function
+a(a){return gv(ch,w(b,a))}var
+c=ba(w(b,Fe));if(p(c,Ff)){if(p(c,Fg)){if(p(c,Fh))return ar([0,Fj,[0,c,Fi]]);var
+e=bm(b,Fk),f=cE(function(a){return gv(ch,a)},e),g=a(Fl);return[1,a(Fm),g,f]}var
+h=lw(w(b,Fn)),i=ch(w(b,Fo)),j=a(Fp),k=a(Fq);return[0,a(Fr),k,j,i,h]}return[2,a(Fs)]}function
+Ft(d){var
 a=al(d);if(a){var
-b=a[1];if(!p(b[1],Fe)){var
-c=b[2];if(2===c[0]&&!p(c[1],Ff))return 1}}return 0}function
-rv(e){var
+b=a[1];if(!p(b[1],Fu)){var
+c=b[2];if(2===c[0]&&!p(c[1],Fv))return 1}}return 0}function
+rJ(e){var
 b=al(e);function
-a(a){return Y(ce,ag(w(b,a)))}var
-c=a9(w(b,Fg)),f=bl(b,Fh),d=cA(function(a){return Y(ce,ag(a))},f);if(p(c,Fi)){if(p(c,Fj)){if(p(c,Fk)){if(!p(c,Fl)){var
-g=a(Fo);return[1,a(Fp),g,d]}}else
+a(a){return Z(ch,af(w(b,a)))}var
+c=ba(w(b,Fw)),f=bm(b,Fx),d=cE(function(a){return Z(ch,af(a))},f);if(p(c,Fy)){if(p(c,Fz)){if(p(c,FA)){if(!p(c,FB)){var
+g=a(FE);return[1,a(FF),g,d]}}else
 if(!d){var
-h=lt(w(b,Fq)),i=ce(w(b,Fr)),j=a(Fs),k=a(Ft);return[0,a(Fu),k,j,i,h]}}else
-if(!d)return[2,a(Fv)]}else
+h=lw(w(b,FG)),i=ch(w(b,FH)),j=a(FI),k=a(FJ);return[0,a(FK),k,j,i,h]}}else
+if(!d)return[2,a(FL)]}else
 if(!d){var
-l=lt(w(b,Fw)),m=ce(w(b,Fx)),n=ce(w(b,Fy)),o=a(Fz),q=a(FA),r=a(FB);return[3,a(FC),r,q,o,n,m,l]}return ap([0,Fn,[0,c,Fm]])}function
-FD(d){var
+l=lw(w(b,FM)),m=ch(w(b,FN)),n=ch(w(b,FO)),o=a(FP),q=a(FQ),r=a(FR);return[3,a(FS),r,q,o,n,m,l]}return ar([0,FD,[0,c,FC]])}function
+FT(d){var
 a=al(d);if(a){var
-b=a[1];if(!p(b[1],FE)){var
-c=b[2];if(2===c[0]&&!p(c[1],FF))return 1}}return 0}function
-FG(d){var
+b=a[1];if(!p(b[1],FU)){var
+c=b[2];if(2===c[0]&&!p(c[1],FV))return 1}}return 0}function
+FW(d){var
 a=al(d);if(a){var
-b=a[1];if(!p(b[1],FH)){var
-c=b[2];if(2===c[0]&&!p(c[1],FI))return 1}}return 0}function
-rw(d){var
+b=a[1];if(!p(b[1],FX)){var
+c=b[2];if(2===c[0]&&!p(c[1],FY))return 1}}return 0}function
+rK(d){var
 a=al(d);if(a){var
-b=a[1];if(!p(b[1],FJ)){var
-c=b[2];if(2===c[0]&&!p(c[1],FK))return 1}}return 0}function
-dF(c,d){var
-a=ag(d);if(a){var
+b=a[1];if(!p(b[1],FZ)){var
+c=b[2];if(2===c[0]&&!p(c[1],F0))return 1}}return 0}function
+dJ(c,d){var
+a=af(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=h(c,b[1]);return[0,h(c,a[1]),e]}}throw Z}function
-ep(g,o){var
-h=g?g[1]:g,c=al(o),a=a9(w(c,FL)),j=tW(a,FM),f=0;if(0<=j)if(0<j)if(p(a,FN))if(p(a,FO))if(p(a,FP))if(p(a,FQ))if(p(a,FR))if(p(a,FS))if(p(a,FT)){var
-k=p(a,FU);if(k)f=1;else
+e=h(c,b[1]);return[0,h(c,a[1]),e]}}throw aa}function
+er(g,o){var
+h=g?g[1]:g,c=al(o),a=ba(w(c,F1)),j=t_(a,F2),f=0;if(0<=j)if(0<j)if(p(a,F3))if(p(a,F4))if(p(a,F5))if(p(a,F6))if(p(a,F7))if(p(a,F8))if(p(a,F9)){var
+k=p(a,F_);if(k)f=1;else
 var
 b=k}else
 var
@@ -9331,7 +9523,7 @@ var
 b=13;else
 var
 b=2;else
-if(p(a,Gd))if(p(a,Ge))if(p(a,Gf))if(p(a,Gg))if(p(a,Gh))if(p(a,Gi))if(p(a,Gj))if(p(a,Gk))f=1;else
+if(p(a,Gt))if(p(a,Gu))if(p(a,Gv))if(p(a,Gw))if(p(a,Gx))if(p(a,Gy))if(p(a,Gz))if(p(a,GA))f=1;else
 var
 b=1;else
 var
@@ -9349,229 +9541,229 @@ b=14;else
 f=1;else
 var
 b=12;var
-n=f?ap([0,FW,[0,a,FV]]):b;function
-i(a){return w(c,FX)}var
-d=a9(w(c,FY)),l=p(d,FZ);if(l)if(p(d,F0))if(p(d,F1))if(p(d,F2))var
-e=ap([0,F4,[0,d,F3]]);else
+n=f?ar([0,Ga,[0,a,F$]]):b;function
+i(a){return w(c,Gb)}var
+d=ba(w(c,Gc)),l=p(d,Gd);if(l)if(p(d,Ge))if(p(d,Gf))if(p(d,Gg))var
+e=ar([0,Gi,[0,d,Gh]]);else
 var
-m=dF(_,i(0)),e=[2,m[1],m[2]];else
+m=dJ(ab,i(0)),e=[2,m[1],m[2]];else
 var
-e=[0,_(i(0))];else
+e=[0,ab(i(0))];else
 var
-e=[1,_(i(0))];else
+e=[1,ab(i(0))];else
 var
 e=l;function
 q(H){var
 a=al(H),b=0;switch(n){case
 6:if(a){var
-r=a[1];if(!p(r[1],F6)){var
+r=a[1];if(!p(r[1],Gk)){var
 s=r[2];if(1===s[0]){var
 c=s[1],m=0;if(c&&!c[2])if(a[2])m=1;else{var
 e=c[1];b=1;m=1}if(!m&&!a[2]){var
 t=c;b=2}}}}break;case
 10:if(a){var
-u=a[1];if(!p(u[1],F7)){var
+u=a[1];if(!p(u[1],Gl)){var
 v=u[2];if(1===v[0]){var
 f=v[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-w=g[1];if(!p(w[1],F8)){var
+w=g[1];if(!p(w[1],Gm)){var
 x=w[2];if(1===x[0]){var
 i=x[1];if(i&&!i[2]&&!g[2]){var
-I=_(i[1]);return[2,_(f[1]),I]}}}}}}}}break;case
+I=ab(i[1]);return[2,ab(f[1]),I]}}}}}}}}break;case
 12:if(a){var
-y=a[1];if(!p(y[1],F9)){var
+y=a[1];if(!p(y[1],Gn)){var
 z=y[2];if(1===z[0]){var
 j=z[1];if(j&&!j[2]){var
 k=a[2],A=j[1];if(k){var
-B=k[1];if(!p(B[1],F_)){var
+B=k[1];if(!p(B[1],Go)){var
 C=B[2];if(1===C[0]){var
 l=C[1];if(l&&!l[2]&&!k[2]&&h){var
-J=_(l[1]);return[3,_(A),J]}}}}else{var
+J=ab(l[1]);return[3,ab(A),J]}}}}else{var
 e=A;b=1}}}}}break;case
 16:if(a){var
-F=a[1];if(!p(F[1],Ga)){var
+F=a[1];if(!p(F[1],Gq)){var
 G=F[2];if(1===G[0]&&!a[2]){var
 t=G[1];b=2}}}break;case
 14:case
 15:if(a){var
-D=a[1];if(!p(D[1],F$)){var
-E=D[2];if(1===E[0]&&!a[2])return[1,Y(_,E[1])]}}break;case
+D=a[1];if(!p(D[1],Gp)){var
+E=D[2];if(1===E[0]&&!a[2])return[1,Z(ab,E[1])]}}break;case
 2:case
 8:if(a){var
-o=a[1];if(!p(o[1],F5)){var
+o=a[1];if(!p(o[1],Gj)){var
 q=o[2];if(1===q[0]){var
 d=q[1];if(d&&!d[2]&&!a[2]){var
 e=d[1];b=1}}}}break}switch(b){case
-0:throw Z;case
-1:return[0,_(e)];default:return[1,Y(_,t)]}}var
-r=cA(q,bl(c,Gb));return[0,n,cA(c3,bl(c,Gc)),r,e]}function
-rx(c){var
-d=ep(Gn,c),e=d[1];if(!(9<=e))switch(e){case
+0:throw aa;case
+1:return[0,ab(e)];default:return[1,Z(ab,t)]}}var
+r=cE(q,bm(c,Gr));return[0,n,cE(c6,bm(c,Gs)),r,e]}function
+rL(c){var
+d=er(GD,c),e=d[1];if(!(9<=e))switch(e){case
 2:case
 6:case
 8:return d}var
-a=ep(Gl,c),b=a[1];if(2!==b&&!(4<=b))return a;return ap(Gm)}function
-ry(a){var
-b=ep(Go,a);return 11===b[1]?b:rx(a)}function
-Gp(a){var
-b=ep(Gq,a);return 12===b[1]?b:ry(a)}function
-Gr(a){var
-b=ep(Gs,a),c=b[1];if(9<=c)switch(c-9|0){case
+a=er(GB,c),b=a[1];if(2!==b&&!(4<=b))return a;return ar(GC)}function
+rM(a){var
+b=er(GE,a);return 11===b[1]?b:rL(a)}function
+GF(a){var
+b=er(GG,a);return 12===b[1]?b:rM(a)}function
+GH(a){var
+b=er(GI,a),c=b[1];if(9<=c)switch(c-9|0){case
 2:case
 4:case
-7:break;default:return b}return ry(a)}function
-lu(c){var
-d=ep(Gt,c),a=d[1];if(4<=a){var
+7:break;default:return b}return rM(a)}function
+lx(c){var
+d=er(GJ,c),a=d[1];if(4<=a){var
 b=0;if(6<=a)switch(a-6|0){case
 4:case
 5:case
 6:case
 7:case
 10:b=1;break}else
-b=1;if(b)return d}return rx(c)}function
-lv(b){var
-a=al(b[2]);if(p(b[1],GA)){var
-c=dF(_,w(a,GB)),d=dF(_,w(a,GC)),e=d[2],f=d[1],g=_(w(a,GD));return[1,c[1],c[2],g,f,e]}var
-h=Y(_,ag(w(a,GE)));return[0,Y(_,ag(w(a,GF))),h]}function
-GG(f){var
+b=1;if(b)return d}return rL(c)}function
+ly(b){var
+a=al(b[2]);if(p(b[1],GQ)){var
+c=dJ(ab,w(a,GR)),d=dJ(ab,w(a,GS)),e=d[2],f=d[1],g=ab(w(a,GT));return[1,c[1],c[2],g,f,e]}var
+h=Z(ab,af(w(a,GU)));return[0,Z(ab,af(w(a,GV))),h]}function
+GW(f){var
 a=al(f);function
-d(b){return _(w(a,b))}function
-c(b){return gm(_,w(a,b))}var
-b=a9(w(a,GH));if(p(b,GI)){if(!p(b,GJ)){var
-j=w(a,GP),e=dF(function(a){return a},j),k=bl(a,GQ),l=cA(function(a){return c(GR)},k),m=ip(a9(e[2])),n=ip(a9(e[1])),o=d(GS);return[0,c3(w(a,GT)),o,n,m,l]}if(p(b,GK))throw Z}var
-g=d(GL),h=c(GM),i=c(GN);return[1,aI(b,GO),i,h,g]}function
-lw(aF){var
-j=eo(aF),k=j[1];if(p(k,GU)){if(p(k,GV)){if(p(k,GW)){if(p(k,GX))return ap([0,GZ,[0,k,GY]]);var
-C=w(al(j[2]),G0),an=0;if(2===C[0]){var
-R=p(C[1],G1);if(!R){var
+d(b){return ab(w(a,b))}function
+c(b){return gv(ab,w(a,b))}var
+b=ba(w(a,GX));if(p(b,GY)){if(!p(b,GZ)){var
+j=w(a,G5),e=dJ(function(a){return a},j),k=bm(a,G6),l=cE(function(a){return c(G7)},k),m=iC(ba(e[2])),n=iC(ba(e[1])),o=d(G8);return[0,c6(w(a,G9)),o,n,m,l]}if(p(b,G0))throw aa}var
+g=d(G1),h=c(G2),i=c(G3);return[1,aJ(b,G4),i,h,g]}function
+lz(aF){var
+j=eq(aF),k=j[1];if(p(k,G_)){if(p(k,G$)){if(p(k,Ha)){if(p(k,Hb))return ar([0,Hd,[0,k,Hc]]);var
+C=w(al(j[2]),He),an=0;if(2===C[0]){var
+R=p(C[1],Hf);if(!R){var
 Q=R;an=1}}if(!an)var
-Q=[0,ce(C)];return[6,Q]}var
-S=al(j[2]),l=lw([0,[0,[0,G3,w(S,G2)],0]]);if(0===l[0]){var
+Q=[0,ch(C)];return[6,Q]}var
+S=al(j[2]),l=lz([0,[0,[0,Hh,w(S,Hg)],0]]);if(0===l[0]){var
 D=l[2];if(0===D[0]&&!l[3]){var
-T=l[4];if(!aP(cd,T)){var
-aG=_(w(S,G5));return[5,l[1],D[1],D[2],T,aG]}}}return ap(G4)}var
-b=al(j[2]),E=bl(b,G6),F=E?Y(GG,ag(E[1])):E,s=function(b){var
-a=0!==F?1:0;return a?ap(G7):a},m=eo(w(b,G8)),c=eo(w(b,G9)),d=m[1];if(p(d,G_)&&p(d,G$)&&p(d,Ha)){if(0===bl(b,Hb)){if(p(d,Hc)){var
-ao=0;if(p(d,Hd)){if(!p(d,He)){var
-U=c[1],aq=0;if(p(U,Hh)&&p(U,Hi)){ao=1;aq=1}if(!aq){var
-n=ag(m[2]),aH=ag(w(b,Hl)),G=Y(function(a){return ep(0,a)},aH),aK=aP(function(a){switch(a[1]){case
-5:return 1-ex(FD,n);case
-11:return aP(FG,n);case
+T=l[4];if(!aR(cg,T)){var
+aG=ab(w(S,Hj));return[5,l[1],D[1],D[2],T,aG]}}}return ar(Hi)}var
+b=al(j[2]),E=bm(b,Hk),F=E?Z(GW,af(E[1])):E,s=function(b){var
+a=0!==F?1:0;return a?ar(Hl):a},m=eq(w(b,Hm)),c=eq(w(b,Hn)),d=m[1];if(p(d,Ho)&&p(d,Hp)&&p(d,Hq)){if(0===bm(b,Hr)){if(p(d,Hs)){var
+ao=0;if(p(d,Ht)){if(!p(d,Hu)){var
+U=c[1],ap=0;if(p(U,Hx)&&p(U,Hy)){ao=1;ap=1}if(!ap){var
+n=af(m[2]),aH=af(w(b,HB)),G=Z(function(a){return er(0,a)},aH),aI=aR(function(a){switch(a[1]){case
+5:return 1-ez(FT,n);case
+11:return aR(FW,n);case
 7:case
 9:case
 10:case
-12:return 1;default:return 0}},G);if(!aP(Fd,n)){var
-ar=0;if(!aP(cd,G)||aK)ar=1;if(ar){var
-aN=Y(EZ,n),i=al(c[2]);if(p(c[1],Gu))var
-O=dF(_,w(i,Gv)),P=dF(_,w(i,Gw)),aB=P[2],aC=P[1],aD=_(w(i,Gx)),V=[1,O[1],O[2],aD,aC,aB];else
+12:return 1;default:return 0}},G);if(!aR(Ft,n)){var
+aq=0;if(!aR(cg,G)||aI)aq=1;if(aq){var
+aN=Z(Fd,n),i=al(c[2]);if(p(c[1],GK))var
+O=dJ(ab,w(i,GL)),P=dJ(ab,w(i,GM)),aB=P[2],aC=P[1],aD=ab(w(i,GN)),V=[1,O[1],O[2],aD,aC,aB];else
 var
-aE=gm(_,w(i,Gy)),V=[0,gm(_,w(i,Gz)),aE];return[0,aN,V,F,G]}}s(0);var
-aL=Y(lu,ag(w(b,Hm))),aM=lv(c);return[1,0,Y(rv,n),0,aM,0,aL]}}}else
-if(!p(c[1],Hn)){s(0);var
-W=Y(lu,ag(w(b,Ho))),z=0,g=W;for(;;){if(g){var
+aE=gv(ab,w(i,GO)),V=[0,gv(ab,w(i,GP)),aE];return[0,aN,V,F,G]}}s(0);var
+aL=Z(lx,af(w(b,HC))),aM=ly(c);return[1,0,Z(rJ,n),0,aM,0,aL]}}}else
+if(!p(c[1],HD)){s(0);var
+W=Z(lx,af(w(b,HE))),z=0,g=W;for(;;){if(g){var
 L=g[2],M=g[1];if(0===M[1]){var
 z=[0,M,z],g=L;continue}var
 g=L;continue}var
-q=iX(z),as=0;if(q){var
+q=i_(z),as=0;if(q){var
 e=0,X=q[1][4];if(typeof
 X==="number")e=1;else
 switch(X[0]){case
 0:var
 H=q[2];if(H){var
-J=0,$=H[1][4];if(typeof
-$!=="number"&&1===$[0])if(H[2]){e=1;J=1}else
+J=0,Y=H[1][4];if(typeof
+Y!=="number"&&1===Y[0])if(H[2]){e=1;J=1}else
 J=1;if(!J)e=1}else
 e=1;break;case
 1:var
 I=q[2];if(I){var
-K=0,aa=I[1][4];if(typeof
-aa!=="number"&&0===aa[0])if(I[2]){e=1;K=1}else
+K=0,_=I[1][4];if(typeof
+_!=="number"&&0===_[0])if(I[2]){e=1;K=1}else
 K=1;if(!K)e=1}else
-e=1;break;default:e=1}if(!e)as=1}if(!as)ap(Hp);var
-aO=_(w(al(c[2]),Hq));return[4,_(w(al(m[2]),Hr)),aO,W]}}if(!ao)return ap([0,Hg,[0,d,Hf]])}else
-if(!p(c[1],Hs)){s(0);var
-t=al(m[2]),ab=al(c[2]),ac=function(c,a){var
-b=ag(a);return Y(function(d){var
-a=ag(d);if(a){var
+e=1;break;default:e=1}if(!e)as=1}if(!as)ar(HF);var
+aO=ab(w(al(c[2]),HG));return[4,ab(w(al(m[2]),HH)),aO,W]}}if(!ao)return ar([0,Hw,[0,d,Hv]])}else
+if(!p(c[1],HI)){s(0);var
+t=al(m[2]),$=al(c[2]),ac=function(c,a){var
+b=af(a);return Z(function(d){var
+a=af(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=h(c,b[1]);return[0,a9(a[1]),e]}}throw Z},b)},aQ=function(d){var
+e=h(c,b[1]);return[0,ba(a[1]),e]}}throw aa},b)},aP=function(d){var
 a=al(d);if(a){var
-b=a[1],c=b[1];if(p(c,Ht)){if(!p(c,Hu)&&!a[2])return[0,Y(ls,ag(b[2]))]}else
-if(!a[2])return[1,ls(b[2])]}throw Z},ad=ac(ls,w(t,Hv)),ae=Y(aQ,ag(w(t,Hw))),A=0,r=ae;for(;;){if(r){var
-B=r[1],au=r[2],av=0===B[0]?B[1]:[0,B[1],0],A=mf(av,A),r=au;continue}var
-aw=iX(A),f=function(b,a){switch(a[0]){case
+b=a[1],c=b[1];if(p(c,HJ)){if(!p(c,HK)&&!a[2])return[0,Z(lv,af(b[2]))]}else
+if(!a[2])return[1,lv(b[2])]}throw aa},ad=ac(lv,w(t,HL)),ae=Z(aP,af(w(t,HM))),A=0,r=ae;for(;;){if(r){var
+B=r[1],au=r[2],av=0===B[0]?B[1]:[0,B[1],0],A=mi(av,A),r=au;continue}var
+aw=i_(A),f=function(b,a){switch(a[0]){case
 0:var
 c=1;break;case
 1:var
-d=mh(a[1],b),e=1,g=d?d[1]:e,c=g;break;case
+d=mk(a[1],b),e=1,g=d?d[1]:e,c=g;break;case
 3:var
 h=f(b,a[3]),c=(1+f(b,a[2])|0)+h|0;break;case
 4:var
-i=iW(a[2]),c=l5(f(b,a[1]),i);break;default:var
-c=1+f(b,a[1])|0}return mc(32769,c)},ax=0,N=mg(function(b,a){var
-c=f(b,a[2]);return[0,[0,a[1],c],b]},ax,ad),ay=Y(function(a){return f(N,a)},aw),az=md(Y(aJ,N),ay),aA=0;if(32768<mg(function(b,a){return b+a|0},aA,az))ap([0,Hy,[0,a("32768"),Hx]]);var
-aR=Y(Gp,ag(w(b,Hz))),aS=Y(_,ag(w(ab,HA))),aT=Y(_,ag(w(ab,HB))),aU=ac(ce,w(t,HC));return[3,Y(a9,ag(w(t,HD))),aU,ad,ae,aT,aS,aR]}}return ap([0,Hk,[0,c[1],Hj]])}throw Z}var
-af=al(m[2]),u=cA(_,bl(af,HE)),aV=function(f){var
-a=eo(f),b=a[1];if(p(b,HF)){if(p(b,HG)){if(p(b,HH)){if(p(b,HI))throw Z;var
-d=a[2],g=_(w(al(d),HJ));return[3,_(w(al(d),HK)),g]}var
-h=a[2],c=function(a){return dF(_,w(al(h),a))},i=c(HL),j=c(HM);return[1,c(HN),j,i]}var
-e=dF(_,a[2]);return[0,e[1],e[2]]}return[2,_(a[2])]},v=cA(aV,bl(b,HO)),ah=p(d,HP),ai=ah?p(d,HQ)?2:1:ah,x=ag(w(af,HR));if(u&&v&&ex(rw,x)){var
+i=i9(a[2]),c=l8(f(b,a[1]),i);break;default:var
+c=1+f(b,a[1])|0}return mf(32769,c)},ax=0,N=mj(function(b,a){var
+c=f(b,a[2]);return[0,[0,a[1],c],b]},ax,ad),ay=Z(function(a){return f(N,a)},aw),az=mg(Z(aK,N),ay),aA=0;if(32768<mj(function(b,a){return b+a|0},aA,az))ar([0,HO,[0,a("32768"),HN]]);var
+aQ=Z(GF,af(w(b,HP))),aS=Z(ab,af(w($,HQ))),aT=Z(ab,af(w($,HR))),aU=ac(ch,w(t,HS));return[3,Z(ba,af(w(t,HT))),aU,ad,ae,aT,aS,aQ]}}return ar([0,HA,[0,c[1],Hz]])}throw aa}var
+ag=al(m[2]),u=cE(ab,bm(ag,HU)),aV=function(f){var
+a=eq(f),b=a[1];if(p(b,HV)){if(p(b,HW)){if(p(b,HX)){if(p(b,HY))throw aa;var
+d=a[2],g=ab(w(al(d),HZ));return[3,ab(w(al(d),H0)),g]}var
+h=a[2],c=function(a){return dJ(ab,w(al(h),a))},i=c(H1),j=c(H2);return[1,c(H3),j,i]}var
+e=dJ(ab,a[2]);return[0,e[1],e[2]]}return[2,ab(a[2])]},v=cE(aV,bm(b,H4)),ah=p(d,H5),ai=ah?p(d,H6)?2:1:ah,x=af(w(ag,H7));if(u&&v&&ez(rK,x)){var
 aW=function(c){var
 a=al(c);function
-b(b){return Y(ce,ag(w(a,b)))}if(0!==bl(a,HS))ap(HT);var
-d=b(HU);return[0,b(HV),d]},aX=Y(Gr,ag(w(b,HW))),aY=v[1],aZ=lv(c),a0=u[1];return[2,ai,Y(aW,x),a0,aZ,aY,F,aX]}s(0);var
-at=0;if(!u&&aI(d,HZ)){var
+b(b){return Z(ch,af(w(a,b)))}if(0!==bm(a,H8))ar(H9);var
+d=b(H_);return[0,b(H$),d]},aX=Z(GH,af(w(b,Ia))),aY=v[1],aZ=ly(c),a0=u[1];return[2,ai,Z(aW,x),a0,aZ,aY,F,aX]}s(0);var
+at=0;if(!u&&aJ(d,Id)){var
 aj=1;at=1}if(!at)var
 aj=[0,ai];var
-ak=0!==v?1:0,a1=ak?aP(rw,x):ak;if(a1)ap(HX);var
-a2=Y(lu,ag(w(b,HY))),a3=lv(c);return[1,aj,Y(rv,x),u,a3,v,a2]}var
+ak=0!==v?1:0,a1=ak?aR(rK,x):ak;if(a1)ar(Ib);var
+a2=Z(lx,af(w(b,Ic))),a3=ly(c);return[1,aj,Z(rJ,x),u,a3,v,a2]}var
 y=al(j[2]);function
 a4(b){var
-a=al(b),c=_(w(a,H0)),d=[0,_(w(a,H1)),c];return[0,a9(w(a,H2)),d]}var
-o=lw([0,[0,[0,H4,w(y,H3)],0]]);if(0===o[0]&&!o[3]){var
-am=o[4];if(!aP(cd,am)){var
-a5=_(w(y,H6)),a6=_(w(y,H7)),a7=o[2],a8=o[1];return[7,Y(a4,ag(w(y,H8))),a8,a7,am,a6,a5]}}return ap(H5)}function
-go(a){return Y(fc,ag(a))}function
-iq(c,b){var
-a=go(b);if(cH(a)!==c)throw Z;return a}function
-rz(a,d){var
-b=al(d),e=ag(w(b,H$)),f=a[2],c=Y(function(a){return iq(f,a)},e),g=a[1];if(cH(c)!==g)throw Z;return[0,c,dE(w(b,Ia))]}function
-dG(ax,i){var
-av=0;if(0===i[0]){var
+a=al(b),c=ab(w(a,Ie)),d=[0,ab(w(a,If)),c];return[0,ba(w(a,Ig)),d]}var
+o=lz([0,[0,[0,Ii,w(y,Ih)],0]]);if(0===o[0]&&!o[3]){var
+am=o[4];if(!aR(cg,am)){var
+a5=ab(w(y,Ik)),a6=ab(w(y,Il)),a7=o[2],a8=o[1];return[7,Z(a4,af(w(y,Im))),a8,a7,am,a6,a5]}}return ar(Ij)}function
+fh(a){return Z(fg,af(a))}function
+iD(c,b){var
+a=fh(b);if(cL(a)!==c)throw aa;return a}function
+rN(a,d){var
+b=al(d),e=af(w(b,Ip)),f=a[2],c=Z(function(a){return iD(f,a)},e),g=a[1];if(cL(c)!==g)throw aa;return[0,c,dI(w(b,Iq))]}function
+dK(ay,i){var
+aw=0;if(0===i[0]){var
 q=i[1];if(q){var
-V=q[1];if(!p(V[1],Ib)){var
-ai=V[2];if(0===ai[0]){var
-M=ai[1];if(M){var
-aj=M[1];if(!p(aj[1],IG)){var
-ak=aj[2];if(1===ak[0]){var
-N=ak[1];if(N){var
-am=N[1];if(1===am[0]){var
-an=am[1];if(an&&!an[2]&&!N[2]){var
-ao=M[2];if(ao&&!ao[2]&&!q[2]){var
-f=IH;av=1}}}}}}}}}}}if(!av)var
-f=ax;var
+W=q[1];if(!p(W[1],Ir)){var
+aj=W[2];if(0===aj[0]){var
+N=aj[1];if(N){var
+ak=N[1];if(!p(ak[1],IW)){var
+am=ak[2];if(1===am[0]){var
+O=am[1];if(O){var
+an=O[1];if(1===an[0]){var
+ao=an[1];if(ao&&!ao[2]&&!O[2]){var
+ap=N[2];if(ap&&!ap[2]&&!q[2]){var
+f=IX;aw=1}}}}}}}}}}}if(!aw)var
+f=ay;var
 r=f[2];switch(i[0]){case
 0:var
 c=i[1];if(c){var
-e=c[1],a=e[1],W=tW(a,Ic),b=0;if(0<=W)if(0<W)if(p(a,Id)){var
-g=0;if(p(a,Ie)&&p(a,If)&&p(a,Ig))if(p(a,Ih))g=1;else{var
-X=e[2];if(1===X[0]){var
-s=X[1];if(s){var
+e=c[1],a=e[1],X=t_(a,Is),b=0;if(0<=X)if(0<X)if(p(a,It)){var
+g=0;if(p(a,Iu)&&p(a,Iv)&&p(a,Iw))if(p(a,Ix))g=1;else{var
+Y=e[2];if(1===Y[0]){var
+s=Y[1];if(s){var
 t=s[2];if(t){var
 u=t[2];if(u&&!u[2]){if(!c[2]){var
-ay=Y(go,ag(u[1])),az=a9(t[1]);return[8,dG(f,s[1]),az,ay]}b=1;g=1}else
+az=Z(fh,af(u[1])),aA=ba(t[1]);return[8,dK(f,s[1]),aA,az]}b=1;g=1}else
 g=1}else
 g=1}else
 g=1}else
 g=1}if(!g)if(c[2])b=1;else{var
-aA=e[2],x=aA,v=function(c,b){return[1,a,c,b]};b=2}}else{var
+aB=e[2],x=aB,v=function(c,b){return[1,a,c,b]};b=2}}else{var
 $=e[2];if(1===$[0]){var
 y=$[1];if(y){var
 z=y[2];if(z){var
 A=z[2];if(A&&!A[2]){if(!c[2]){var
-aB=dE(A[1]),aC=fc(z[1]);return[5,dG(f,y[1]),aC,aB]}b=1}}}}}else{var
-aa=e[2];if(1===aa[0]){if(!c[2]){var
-aD=function(x){if(1===x[0]){var
+aC=dI(A[1]),aD=fg(z[1]);return[5,dK(f,y[1]),aD,aC]}b=1}}}}}else{var
+ab=e[2];if(1===ab[0]){if(!c[2]){var
+aE=function(x){if(1===x[0]){var
 i=x[1];if(i){var
 j=i[2];if(j){var
 k=j[2];if(k){var
@@ -9580,115 +9772,116 @@ m=l[1],b=m;for(;;){var
 n=0;switch(b[0]){case
 0:var
 c=b[1];if(c){var
-q=c[1],a=q[1];if(p(a,Ik)){var
-y=0;if(p(a,Il)&&p(a,Im)&&p(a,In)&&p(a,Io))y=1;if(!y&&!c[2])n=1}else{var
+q=c[1],a=q[1];if(p(a,IA)){var
+y=0;if(p(a,IB)&&p(a,IC)&&p(a,ID)&&p(a,IE))y=1;if(!y&&!c[2])n=1}else{var
 r=q[2];if(1===r[0]){var
 s=r[1];if(s&&!c[2]){var
 b=s[1];continue}}}}break;case
 2:var
-t=b[1];if(!p(t,Ip)||!p(t,Iq))n=1;break}var
+t=b[1];if(!p(t,IF)||!p(t,IG))n=1;break}var
 z=n?1:0;if(z){var
-A=dG(f,m),B=dE(k[1]),C=fc(j[1]),d=m,D=[0,[0,[0,go(i[1]),C],B],A];for(;;){var
+A=dK(f,m),B=dI(k[1]),C=fg(j[1]),d=m,D=[0,[0,[0,fh(i[1]),C],B],A];for(;;){var
 o=0;switch(d[0]){case
 0:var
 e=d[1];if(e){var
-u=e[1],h=u[1],g=0;if(p(h,Ir))if(p(h,Is)){if(p(h,It))g=1}else
+u=e[1],h=u[1],g=0;if(p(h,IH))if(p(h,II)){if(p(h,IJ))g=1}else
 if(e[2])g=1;else{o=1;g=1}if(!g){var
 v=u[2];if(1===v[0]){var
 w=v[1];if(w&&!e[2]){var
 d=w[1];continue}}}}break;case
-2:if(!p(d[1],Iu))o=1;break}var
-E=o?1:0;return[0,E,D]}}return ap(Iv)}}}}}}throw Z},B=Y(aD,aa[1]),ab=aP(at,B),aE=ab?1-ex(at,B):ab;if(aE)ap(Iw);return[9,Y(aJ,B)]}b=1}}else
-if(p(a,Ix))if(p(a,Iy))if(p(a,Iz))if(p(a,IA))if(p(a,IB)){if(!p(a,IC)){if(!c[2]){var
-ac=al(e[2]),aF=ag(w(ac,ID)),aG=r+1|0,ad=Y(function(a){return iq(aG,a)},aF);if(3===cH(ad))return[1,IF,ad,dE(w(ac,IE))];throw Z}b=1}}else{if(!c[2]){var
-S=a9(e[2]),T=p(S,H9);if(T){if(p(S,H_))throw Z;var
-U=1}else
+2:if(!p(d[1],IK))o=1;break}var
+E=o?1:0;return[0,E,D]}}return ar(IL)}}}}}}throw aa},B=Z(aE,ab[1]),ac=aR(as,B),aF=ac?1-ez(as,B):ac;if(aF)ar(IM);return[9,Z(aK,B)]}b=1}}else
+if(p(a,IN))if(p(a,IO))if(p(a,IP))if(p(a,IQ))if(p(a,IR)){if(!p(a,IS)){if(!c[2]){var
+ad=al(e[2]),aG=af(w(ad,IT)),aH=r+1|0,ae=Z(function(a){return iD(aH,a)},aG);if(3===cL(ae))return[1,IV,ae,dI(w(ad,IU))];throw aa}b=1}}else{if(!c[2]){var
+T=ba(e[2]),U=p(T,In);if(U){if(p(T,Io))throw aa;var
+V=1}else
 var
-U=T;return[2,U]}b=1}else{if(!c[2]){var
+V=U;return[2,V]}b=1}else{if(!c[2]){var
 k=e[2],o=0;switch(k[0]){case
 0:var
 l=k[1];if(l){var
-aq=l[1],j=aq[1],d=0;if(p(j,II)&&p(j,IJ)&&p(j,IK)&&p(j,IL))if(p(j,IM))d=1;else{var
-ar=aq[2];if(1===ar[0]){var
-O=ar[1];if(O){var
-m=O[1],h=0;switch(m[0]){case
+aq=l[1],j=aq[1],d=0;if(p(j,IY)&&p(j,IZ)&&p(j,I0)&&p(j,I1))if(p(j,I2))d=1;else{var
+at=aq[2];if(1===at[0]){var
+P=at[1];if(P){var
+m=P[1],h=0;switch(m[0]){case
 0:var
-P=m[1];if(P){var
-n=P[1][1],aw=0;if(p(n,IO)&&p(n,IP)&&p(n,IQ)&&p(n,IR)){d=1;h=1;aw=1}if(!aw&&P[2]){d=1;h=1}}else{d=1;h=1}break;case
+Q=m[1];if(Q){var
+n=Q[1][1],ax=0;if(p(n,I4)&&p(n,I5)&&p(n,I6)&&p(n,I7)){d=1;h=1;ax=1}if(!ax&&Q[2]){d=1;h=1}}else{d=1;h=1}break;case
 2:var
-as=m[1];if(p(as,IS)&&p(as,IT)){d=1;h=1}break;default:d=1;h=1}if(!h){var
-Q=O[2];if(Q){var
-R=Q[2];if(R&&!(R[2]||l[2])){var
-aR=dE(R[1]),aS=fc(Q[1]),C=[6,dG(f,m),aS,aR];o=2;d=1}else
+au=m[1];if(p(au,I8)&&p(au,I9)){d=1;h=1}break;default:d=1;h=1}if(!h){var
+R=P[2];if(R){var
+S=R[2];if(S&&!(S[2]||l[2])){var
+aT=dI(S[1]),aU=fg(R[1]),C=[6,dK(f,m),aU,aT];o=2;d=1}else
 d=1}else
 d=1}}else
 d=1}else
 d=1}if(!d&&!l[2])o=1}break;case
 2:var
-au=k[1];if(!p(au,IU)||!p(au,IV))o=1;break}switch(o){case
+av=k[1];if(!p(av,I_)||!p(av,I$))o=1;break}switch(o){case
 0:var
-C=ap(IN);break;case
+C=ar(I3);break;case
 1:var
-C=dG(f,k);break}return[7,C]}b=1}else{var
-ae=e[2];if(1===ae[0]){var
-D=ae[1];if(D){var
+C=dK(f,k);break}return[7,C]}b=1}else{var
+ag=e[2];if(1===ag[0]){var
+D=ag[1];if(D){var
 E=D[2];if(E&&!E[2])if(c[2])b=1;else{var
-aH=E[1],aI=D[1],x=aI,v=function(b,a){return[3,b,a,iq(r+1|0,aH)]};b=2}}}}else{var
-af=e[2];if(1===af[0]){var
-F=af[1];if(F){var
+aI=E[1],aJ=D[1],x=aJ,v=function(b,a){return[3,b,a,iD(r+1|0,aI)]};b=2}}}}else{var
+ah=e[2];if(1===ah[0]){var
+F=ah[1];if(F){var
 G=F[2];if(G){var
 H=G[2];if(H){var
-I=H[2];if(I&&!I[2]){if(!c[2]){var
-aK=dG(f,I[1]),aL=dG(f,H[1]),aM=dE(G[1]);return[10,iq(r+1|0,F[1]),aM,aL,aK]}b=1}}}}}}else{var
-ah=e[2];if(1===ah[0]){var
-J=ah[1];if(J){var
-K=J[2];if(K){var
-L=K[2];if(L&&!L[2])if(c[2])b=1;else{var
-aN=L[1],aO=K[1],aQ=J[1],x=aQ,v=function(b,a){var
-c=dE(aN);return[4,b,a,fc(aO),c]};b=2}}}}}switch(b){case
-0:if(!c[2])return ap([0,Ij,[0,a,Ii]]);break;case
+I=H[2];if(I){var
+J=I[2];if(J&&!J[2]){if(!c[2]){var
+aL=dK(f,J[1]),aM=dK(f,I[1]),aN=Z(fh,af(H[1])),aO=dI(G[1]);return[10,iD(r+1|0,F[1]),aO,aN,aM,aL]}b=1}}}}}}}else{var
+ai=e[2];if(1===ai[0]){var
+K=ai[1];if(K){var
+L=K[2];if(L){var
+M=L[2];if(M&&!M[2])if(c[2])b=1;else{var
+aP=M[1],aQ=L[1],aS=K[1],x=aS,v=function(b,a){var
+c=dI(aP);return[4,b,a,fg(aQ),c]};b=2}}}}}switch(b){case
+0:if(!c[2])return ar([0,Iz,[0,a,Iy]]);break;case
 1:break;default:var
-_=rz(f,x);return v(_[1],_[2])}}break;case
-2:return[0,i[1]]}throw Z}function
-rA(n){var
-b=eo(n),a=b[1];if(p(a,IY))if(p(a,IZ)){var
-h=p(a,I0);if(!h)return h;if(p(a,I1)){if(!p(a,I2)){var
-c=al(b[2]),i=function(a){return Y(_,ag(w(c,a)))},j=al(w(c,I6)),o=dE(w(j,I7)),q=Y(go,ag(w(j,I8))),r=i(I9),s=i(I_);return[3,c3(w(c,I$)),s,r,q,o]}if(!p(a,I3))return[2,Y(_,ag(b[2]))]}else{var
+_=rN(f,x);return v(_[1],_[2])}}break;case
+2:return[0,i[1]]}throw aa}function
+rO(n){var
+b=eq(n),a=b[1];if(p(a,Jc))if(p(a,Jd)){var
+h=p(a,Je);if(!h)return h;if(p(a,Jf)){if(!p(a,Jg)){var
+c=al(b[2]),i=function(a){return Z(ab,af(w(c,a)))},j=al(w(c,Jk)),o=dI(w(j,Jl)),q=Z(fh,af(w(j,Jm))),r=i(Jn),s=i(Jo);return[3,c6(w(c,Jp)),s,r,q,o]}if(!p(a,Jh))return[2,Z(ab,af(b[2]))]}else{var
 k=b[2];if(1===k[0]){var
 d=k[1];if(d){var
 e=d[2];if(e&&!e[2]){var
-t=c3(e[1]);return[1,c3(d[1]),t]}}}}}else{var
+t=c6(e[1]);return[1,c6(d[1]),t]}}}}}else{var
 l=b[2];if(1===l[0]){var
 f=l[1];if(f){var
 g=f[2];if(g&&!g[2]){var
-u=Y(go,ag(g[1]));return[0,c3(f[1]),u]}}}}else{var
-m=b[2];if(1===m[0]&&!m[1])return 1}return ap([0,I5,[0,a,I4]])}function
-rB(f,b){var
-a=al(b),c=ag(w(a,Je)),d=Y(function(g){var
+u=Z(fh,af(g[1]));return[0,c6(f[1]),u]}}}}else{var
+m=b[2];if(1===m[0]&&!m[1])return 1}return ar([0,Jj,[0,a,Ji]])}function
+rP(f,b){var
+a=al(b),c=af(w(a,Ju)),d=Z(function(g){var
 a=al(g);function
 b(d,c){var
-b=bl(a,c);return b?Y(d,ag(b[1])):b}var
-c=b(fc,Ja),d=cA(rA,bl(a,Jb)),e=cA(c3,bl(a,Jc));return[0,b(function(h){var
-b=ag(h);if(b){var
+b=bm(a,c);return b?Z(d,af(b[1])):b}var
+c=b(fg,Jq),d=cE(rO,bm(a,Jr)),e=cE(c6,bm(a,Js));return[0,b(function(h){var
+b=af(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!p(c[1],IW)){if(!a[2]){if(p(gl(e),IX))throw Z;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!p(c[1],Ja)){if(!a[2]){if(p(gu(e),Jb))throw aa;d=1}}else
 d=1;if(d&&!a[2]){var
-g=dG(f,c);return[0,c3(e),g]}}}throw Z},Jd),e,d,c]},c),e=bl(a,Jf),g=cA(function(a){return rz(f,a)},e);return[0,rs(w(a,Jg)),g,d]}function
-rC(c){var
-a=al(c),b=bl(a,Jh),d=b?Y(_,ag(b[1])):b,e=rA(w(a,Ji)),f=Y(_,ag(w(a,Jj)));return[0,rs(w(a,Jk)),f,d,e]}function
-Ju(c){var
+g=dK(f,c);return[0,c6(e),g]}}}throw aa},Jt),e,d,c]},c),e=bm(a,Jv),g=cE(function(a){return rN(f,a)},e);return[0,rG(w(a,Jw)),g,d]}function
+rQ(c){var
+a=al(c),b=bm(a,Jx),d=b?Z(ab,af(b[1])):b,e=rO(w(a,Jy)),f=Z(ab,af(w(a,Jz)));return[0,rG(w(a,JA)),f,d,e]}function
+JK(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-Jv(b){var
+JL(b){var
 a=b[3];if(a&&1===a[1][0])return 1;return 0}function
-Jw(b){var
-c=b[1],a=b[4];if(!(1<c+sv>>>0)&&typeof
-a!=="number"&&1===a[0])return 1-hL(k(a[1]));return 10===c?1:0}function
-JA(f){var
-i=aE(f),b=[0,0];function
-j(a){if(b[1]<i)return bd(f,b[1]);throw Z}function
-k(a){if(j(0)===a){b[1]++;return 0}throw Z}function
-B(a,c){for(;;){if(b[1]<i&&h(c,bd(f,b[1]))){b[1]++;continue}return ey(f,a,b[1]-a|0)}}function
+JM(b){var
+c=b[1],a=b[4];if(!(1<c+sJ>>>0)&&typeof
+a!=="number"&&1===a[0])return 1-hY(k(a[1]));return 10===c?1:0}function
+JQ(f){var
+i=aG(f),b=[0,0];function
+j(a){if(b[1]<i)return be(f,b[1]);throw aa}function
+k(a){if(j(0)===a){b[1]++;return 0}throw aa}function
+B(a,c){for(;;){if(b[1]<i&&h(c,be(f,b[1]))){b[1]++;continue}return eA(f,a,b[1]-a|0)}}function
 C(d){k(34);function
 a(a){var
 b=34!==a?1:0;if(b)var
@@ -9699,18 +9892,18 @@ c=B(b[1],a);k(34);return c}function
 D(e,a){if(j(0)===a){b[1]++;return 0}var
 c=0;for(;;){var
 d=[0,h(e,0),c];if(44===j(0)){b[1]++;var
-c=d;continue}k(a);return iX(d)}}function
-r(c,l){if(64<c)throw Z;var
+c=d;continue}k(a);return i_(d)}}function
+r(c,l){if(64<c)throw aa;var
 a=j(0),d=0;if(48<=a){if(91===a){b[1]++;var
 f=93,g=c+1|0;return[1,D(function(a){return r(g,a)},f)]}if(123===a){b[1]++;var
 h=125;return[0,D(function(b){var
 a=C(0);k(58);return[0,a,r(c+1|0,0)]},h)]}if(!(58<=a))d=1}else{if(34===a)return[2,C(0)];if(45===a)d=1}if(d){var
 i=b[1];b[1]++;var
 e=B(i,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c});if(p(e,EN))return[3,e];throw Z}throw Z}var
-R=r(0,0),E=b[1]<i?1:0,S=E?10===bd(f,b[1])?1:0:E;if(S)b[1]++;if(b[1]<i)throw Z;var
-o=al(R);if(p(a9(w(o,JB)),JC))throw Z;var
-a=lw(w(o,JD)),x=0;switch(a[0]){case
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c});if(p(e,E3))return[3,e];throw aa}throw aa}var
+R=r(0,0),E=b[1]<i?1:0,S=E?10===be(f,b[1])?1:0:E;if(S)b[1]++;if(b[1]<i)throw aa;var
+o=al(R);if(p(ba(w(o,JR)),JS))throw aa;var
+a=lz(w(o,JT)),x=0;switch(a[0]){case
 1:var
 u=a[1],y=0;if(typeof
 u==="number")if(u)var
@@ -9720,49 +9913,49 @@ if(1===u[1])var
 v=6;else
 y=1;if(y)var
 v=3;var
-e=[0,cH(a[2]),v];break;case
+e=[0,cL(a[2]),v];break;case
 2:var
-ai=1===a[1]?6:3,e=[0,cH(a[2]),ai];break;case
+ai=1===a[1]?6:3,e=[0,cL(a[2]),ai];break;case
 3:var
-aj=cH(a[1]),e=[0,cH(a[4]),aj];break;case
+aj=cL(a[1]),e=[0,cL(a[4]),aj];break;case
 7:var
 F=a[2];x=1;break;case
 0:case
 5:var
 F=a[1];x=1;break;default:var
-e=JV}if(x)var
-e=[0,cH(F),3];var
-l=eo(w(o,JE)),m=l[1];if(p(m,Jp))if(p(m,Jq))if(p(m,Jr))var
-c=ap([0,Jt,[0,m,Js]]);else
+e=J$}if(x)var
+e=[0,cL(F),3];var
+l=eq(w(o,JU)),m=l[1];if(p(m,JF))if(p(m,JG))if(p(m,JH))var
+c=ar([0,JJ,[0,m,JI]]);else
 var
-n=rC(l[2]),c=[1,n[1],n[2],n[3],n[4]];else
+n=rQ(l[2]),c=[1,n[1],n[2],n[3],n[4]];else
 var
-s=rB(e,l[2]),c=[0,s[1],s[2],s[3]];else
+s=rP(e,l[2]),c=[0,s[1],s[2],s[3]];else
 var
-T=ag(l[2]),c=[2,Y(function(g){var
-a=eo(g),b=a[1];if(p(b,Jl)){if(p(b,Jm)){if(p(b,Jn)){var
-f=p(b,Jo);if(f)throw Z;return f}return[0,c3(a[2])]}var
-c=rC(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=rB(e,a[2]);return[1,d[1],d[2],d[3]]},T)];function
+T=af(l[2]),c=[2,Z(function(g){var
+a=eq(g),b=a[1];if(p(b,JB)){if(p(b,JC)){if(p(b,JD)){var
+f=p(b,JE);if(f)throw aa;return f}return[0,c6(a[2])]}var
+c=rQ(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=rP(e,a[2]);return[1,d[1],d[2],d[3]]},T)];function
 U(a){return 10===a[1]?1:0}function
-G(a){return aP(U,a)}function
+G(a){return aR(U,a)}function
 V(a){return 0!==a[3]?1:0}function
-H(a){return aP(V,a)}var
+H(a){return aR(V,a)}var
 d=0;switch(a[0]){case
 0:if(0===c[0]){var
 J=a[4],I=a[1];d=3}else
 d=2;break;case
 1:if(0===c[0]){var
-_=c[3];if(aP(function(a){var
-b=a[1];return aP(function(a){switch(a[2][0]){case
+Y=c[3];if(aR(function(a){var
+b=a[1];return aR(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},_))ap(JM);else{var
+7:return 1;default:return 0}},b)},Y))ar(J2);else{var
 O=0;if(G(a[6])){var
-$=a[2];if(aP(function(a){return 2===a[0]?1:0},$)){ap(JN);O=1}}if(!O)d=1}}else
+_=a[2];if(aR(function(a){return 2===a[0]?1:0},_)){ar(J3);O=1}}if(!O)d=1}}else
 d=2;break;case
 2:var
-L=a[1],aa=a[7];if(0===c[0]){var
-ab=1===L?6:3,M=cH(a[2])===ab?1:0;if(M){var
+L=a[1],$=a[7];if(0===c[0]){var
+ab=1===L?6:3,M=cL(a[2])===ab?1:0;if(M){var
 P=0;if(2<=L||!(0===a[4][0]))P=1;else
 var
 t=1;if(P)var
@@ -9772,74 +9965,74 @@ t=M;var
 N=function(c){if(8===c[0]){var
 d=c[1];if(7===d[0]){var
 a=d[1],b=0;switch(a[0]){case
-1:if(!p(a[1],JO))b=1;break;case
+1:if(!p(a[1],J4))b=1;break;case
 6:var
-e=a[1];if(1===e[0]&&!p(e[1],JP))b=1;break}if(b)return t}}return 0},ac=function(a){if(a[1])switch(a[2][0]){case
+e=a[1];if(1===e[0]&&!p(e[1],J5))b=1;break}if(b)return t}}return 0},ac=function(a){if(a[1])switch(a[2][0]){case
 8:case
 9:return 1}else{var
 b=a[2];switch(b[0]){case
 8:return 1-N(b);case
 9:var
-c=b[1];return 1-ex(function(a){return N(a[2])},c)}}return 0},ad=c[3],ak=0;if(aP(function(a){return aP(ac,a[1])},ad))ap(JQ);else{var
-ae=c[3];if(ex(function(a){var
-b=a[1];return ex(function(d){var
+c=b[1];return 1-ez(function(a){return N(a[2])},c)}}return 0},ad=c[3],ak=0;if(aR(function(a){return aR(ac,a[1])},ad))ar(J6);else{var
+ae=c[3];if(ez(function(a){var
+b=a[1];return ez(function(d){var
 b=d[2],a=0;switch(b[0]){case
 0:var
-c=b[1];if(p(c,Jx)){if(!p(c,Jy))return aP(Jw,aa)}else
+c=b[1];if(p(c,JN)){if(!p(c,JO))return aR(JM,$)}else
 a=1;break;case
-1:if(!p(b[1],Jz))a=1;break;case
+1:if(!p(b[1],JP))a=1;break;case
 7:case
 8:case
 9:a=1;break}return a?1:0},b)},ae)){d=1;ak=1}else
-ap(JR)}}else
+ar(J7)}}else
 d=2;break;case
-5:if(aP(Ju,a[4]))ap(JS);else
+5:if(aR(JK,a[4]))ar(J8);else
 if(0===c[0]){var
-af=c[3];if(aP(function(a){return 0!==a[1]?1:0},af))ap(JT);else
+ag=c[3];if(aR(function(a){return 0!==a[1]?1:0},ag))ar(J9);else
 d=1}else
 d=1;break;case
 7:var
 z=0;if(2===c[0]){var
-ah=c[1];if(aP(function(a){if(typeof
+ah=c[1];if(aR(function(a){if(typeof
 a!=="number"&&2===a[0]){var
 b=a[4];if(typeof
-b!=="number"&&3===b[0])return 1}return 0},ah))ap(JU);else
+b!=="number"&&3===b[0])return 1}return 0},ah))ar(J_);else
 z=1}else
 z=1;if(z){var
 J=a[4],I=a[2];d=3}break;default:d=1}var
 q=0;switch(d){case
 0:break;case
 3:var
-Q=0;if(G(J)&&aP(function(a){return 2===a[0]?1:0},I)){ap(JF);Q=1}if(!Q)q=2;break;case
+Q=0;if(G(J)&&aR(function(a){return 2===a[0]?1:0},I)){ar(JV);Q=1}if(!Q)q=2;break;case
 1:q=2;break;default:q=1}var
 A=0;switch(q){case
 2:var
 g=0;switch(a[0]){case
 5:case
-7:if(aP(Jv,a[4])){ap(JK);g=1}else
+7:if(aR(JL,a[4])){ar(J0);g=1}else
 if(7===a[0])switch(c[0]){case
 2:var
 X=function(a){if(typeof
-a!=="number"&&1===a[0])return H(a[3]);return 0};if(aP(X,c[1]))ap(JL);g=1;break;case
+a!=="number"&&1===a[0])return H(a[3]);return 0};if(aR(X,c[1]))ar(J1);g=1;break;case
 0:break;default:A=1;g=1}else
-g=1;break}if(!g)if(0===c[0]&&H(c[3]))ap(JJ);else
+g=1;break}if(!g)if(0===c[0]&&H(c[3]))ar(JZ);else
 A=1;break;case
 1:A=1;break}var
-K=al(w(o,JG)),W=a9(w(K,JH));return[0,a,c,a9(w(K,JI)),W]}function
-JW(b){var
-a=0,f=mc(64,aE(b))-18|0;for(;;){var
+K=al(w(o,JW)),W=ba(w(K,JX));return[0,a,c,ba(w(K,JY)),W]}function
+Ka(b){var
+a=0,f=mf(64,aG(b))-18|0;for(;;){var
 c=a<=f?1:0;if(c){var
-d=aI(ey(b,a,18),JX);if(!d){var
+d=aJ(eA(b,a,18),Kb);if(!d){var
 a=a+1|0;continue}var
 e=d}else
 var
-e=c;return e}}LG(function(b){try{if(JW(b))var
-a=JZ;else{try{var
-e=0,d=JA(b);e=1}catch(a){a=tY(a);if(a[1]===rr)var
-c=[0,a[2]];else{if(a!==Z)throw a;var
+e=c;return e}}LW(function(b){try{if(Ka(b))var
+a=Kd;else{try{var
+e=0,d=JQ(b);e=1}catch(a){a=ua(a);if(a[1]===rF)var
+c=[0,a[2]];else{if(a!==aa)throw a;var
 c=2}}if(e)var
-c=EJ(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return JY}if(typeof
+c=EZ(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return Kc}if(typeof
 a==="number")switch(a){case
-0:return J0;case
-1:return J1;default:return J2}return bn(J3,a[1])});me(0);return}(globalThis));
+0:return Ke;case
+1:return Kf;default:return Kg}return bo(Kh,a[1])});mh(0);return}(globalThis));

@@ -155,7 +155,7 @@ impl Over<'_> {
             Test::SigmaMin(_) => self.stretched(&own, false),
             Test::SigmaMax(_) => self.stretched(&own, true),
             Test::Conditioning(_) if self.formulas.half.is_some() => {
-                self.stretched(&own, self.formulas.half?.upper)
+                self.stretched(&own, self.formulas.half?.upper.is_some())
             }
             Test::Conditioning(_) => {
                 let (least, most) = (self.stretched(&own, false)?, self.stretched(&own, true)?);

@@ -33,7 +33,7 @@ impl Over<'_> {
         let most = match test {
             Test::SigmaMin(_) | Test::Least(..) => false,
             Test::SigmaMax(_) | Test::Greatest(..) => true,
-            Test::Conditioning(_) => self.formulas.half.is_some_and(|half| half.upper),
+            Test::Conditioning(_) => self.formulas.half.is_some_and(|half| half.upper.is_some()),
             _ => return None,
         };
         let found = self.there(test, |there| there.most_stretched(test, most));
@@ -55,12 +55,12 @@ impl Over<'_> {
             let scale = f64::from(places).exp2();
             let mu: Vec<i64> = mu.iter().map(|mu| (mu * scale).round() as i64).collect();
             let half = |upper| {
-                let half = Some(Half { mu: (&mu, places), upper });
+                let half = Some(Half { mu: (&mu, places), weights: &[], upper });
                 let formulas = test::Over { half, inside: None, ..*self.formulas };
                 Over { formulas: &formulas, ..*self }.evidence_of(test, true)
             };
-            let (lower, upper) = (half(false)?, half(true)?);
-            Some(Evidence::Between(mu, places, Box::new(lower), Box::new(upper)))
+            let (lower, upper) = (half(None)?, half(Some(c_squared))?);
+            Some(Evidence::Between(mu, places, Vec::new(), Box::new(lower), Box::new(upper)))
         })
     }
 

@@ -2,6 +2,7 @@
 
 use super::balance::Balance;
 use super::directions::directions;
+use super::doubles::middle;
 use super::evidence::{At, Over};
 use super::rows::{above, exponent, rounded, Form, Rows};
 use super::violation;
@@ -97,9 +98,9 @@ impl Over<'_> {
             }
             Test::Conditioning(c) => match self.formulas.half {
                 None => self.conditioning(test, *c, Form::Plain),
-                Some(Half { upper: true, .. }) => self.shown(test, Evidence::Test),
-                Some(Half { mu: (mu, places), .. }) => {
-                    let kappa = (*mu.first()? as f64 * (-f64::from(places)).exp2()).sqrt();
+                Some(Half { upper: Some(_), .. }) => self.shown(test, Evidence::Test),
+                Some(half) => {
+                    let kappa = self.mu_at_centre(half)?.sqrt();
                     let starts = self.own(Form::Plain, At::Centre)?.starts(kappa);
                     self.shortest_of(test, starts, Evidence::Lower)
                 }
@@ -114,6 +115,16 @@ impl Over<'_> {
             Test::Accuracy(accuracy) => self.accuracy(test, accuracy),
             Test::Apart(apart) => self.apart(test, apart),
         }
+    }
+
+    /// The `mu` of one bound, of the one machine.
+    fn mu_at_centre(&self, Half { mu: (mu, places), weights, .. }: Half<'_>) -> Option<f64> {
+        let own = self.formulas.tolerances.map(|one| one.parameters);
+        let parameters = own.unwrap_or(self.prover.parameters());
+        let terms = weights.iter().flatten();
+        let terms = terms.map(|(j, n)| Some(*n as f64 * middle(parameters.get(*j)?)));
+        let more = terms.sum::<Option<f64>>()?;
+        Some((*mu.first()? as f64 + more) * (-f64::from(places)).exp2())
     }
 
     fn first(&self, test: &Test, all: impl IntoIterator<Item = Evidence>) -> Option<Evidence> {

@@ -16,6 +16,7 @@ use crate::quantity::Test;
 use crate::slope::Slopes;
 use crate::test::accuracy::{near, Accuracy};
 use crate::test::{width, Formulas, Half, Multiplier, Over, Row, Wedge, MOST_PLACES};
+use std::collections::BTreeMap;
 use tolerances::{are_for, is_of_vertices};
 
 /// Checks steps; in another arithmetic than [`Fixed`](crate::fixed::Fixed), proposes them.
@@ -141,16 +142,18 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             }
             (test, Evidence::Tolerances(evidence, ends, directions)) => {
                 let plain = is_of_vertices(test, evidence)
-                    && are_for(directions, (test, over.half.is_some()), over.place.edges.len());
+                    && are_for(directions, (test, over.half), over.place.edges.len());
                 let then = |over: &Over<'_, E>| self.shows(over, test, evidence);
                 plain && self.apart(over, (ends, directions), then) == Some(true)
             }
-            (Test::Conditioning(_), Evidence::Between(mu, places, lower, upper)) => {
+            (Test::Conditioning(c), Evidence::Between(mu, places, weights, lower, upper)) => {
+                let Some(weights) = self.by_parameters(weights) else { return false };
                 let part = |evidence, upper| {
-                    let half = Some(Half { mu: (mu, *places), upper });
+                    let half = Some(Half { mu: (mu, *places), weights: &weights, upper });
                     self.shows(&Over { half, inside: None, ..*over }, test, evidence)
                 };
-                over.is_plain() && over.half.is_none() && part(lower, false) && part(upper, true)
+                let plain = over.is_plain() && over.half.is_none();
+                plain && part(lower, None) && part(upper, Some(*c))
             }
             (test, Evidence::Fan(parts)) => self.fan(over, test, parts) == Some(true),
             (Test::SigmaMin(kappa), Evidence::Rank(y)) => {
@@ -164,18 +167,18 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             (Test::SigmaMax(k), Evidence::Test) => {
                 over.sigma_max(rows, &|v| self.scaled(over, over.range(*k)?, v))
             }
-            (Test::Conditioning(c), Evidence::Lower(y)) => {
-                over.half.is_some_and(|half| self.bound(over, (rows, *c), half, Some(y)))
+            (Test::Conditioning(_), Evidence::Lower(y)) => {
+                over.half.is_some_and(|half| self.bound(over, rows, half, Some(y)))
             }
-            (Test::Conditioning(c), Evidence::Test) => {
-                over.half.is_some_and(|half| self.bound(over, (rows, *c), half, None))
+            (Test::Conditioning(_), Evidence::Test) => {
+                over.half.is_some_and(|half| self.bound(over, rows, half, None))
             }
             // It has a `mu` of its own.
             (Test::Conditioning(c), Evidence::Conditioning(y, mu)) => {
-                let half = |upper| Half { mu: (mu, y.places), upper };
+                let half = |upper| Half { mu: (mu, y.places), weights: &[], upper };
                 over.half.is_none()
-                    && self.bound(over, (rows, *c), half(false), Some(y))
-                    && self.bound(over, (rows, *c), half(true), None)
+                    && self.bound(over, rows, half(None), Some(y))
+                    && self.bound(over, rows, half(Some(*c)), None)
             }
             (Test::OneToOne(rows), Evidence::Chords) => {
                 self.chords.as_ref().is_some_and(|y| over.full_rank(rows, y))
@@ -238,6 +241,7 @@ impl<'a, E: Enclosure> Checker<'a, E> {
         let last: Vec<i64> = last.collect::<Option<_>>()?;
         let next = parts.iter().skip(1).map(|part| &part.0).chain([&last]);
         let plain = over.is_plain() && over.wedge.is_none();
+        let plain = plain && over.half.is_none_or(|half| half.weights.is_empty());
         let mut all = parts.iter().zip(next);
         Some(
             plain
@@ -267,24 +271,40 @@ impl<'a, E: Enclosure> Checker<'a, E> {
     /// coordinate's node between the ends of its range, and `w sigma_min^2 >= mu`, `w sigma_max^2 <= c^2 mu`
     /// for the same convex combination: any other `mu_v` would do. Each bound may have evidence of its own, with the same
     /// `mu_v` ([`Half`]); with two of them it would be unsound.
+    ///
+    /// With `n_ij` it is `mu_v + sum_ij n_ij theta_j`, of each machine its own: what is shown of each is that of it. A step
+    /// `r` of quantity `j` changes it by `n_ij r` with row `i`.
     fn bound(
         &self,
         over: &Over<'_, E>,
-        (rows, c_squared): (&[Row<Formula>], Formula),
-        Half { mu, upper }: Half<'_>,
+        rows: &[Row<Formula>],
+        half: Half<'_>,
         y: Option<&Multiplier>,
     ) -> bool {
-        let mu = |v| self.mu(over, mu, v);
-        let above = |v| self.arithmetic.mul(&over.of(c_squared)?.range, &mu(v)?);
+        let mu = |v| self.mu(over, half, v);
+        let above = |v| self.arithmetic.mul(&over.range(half.upper?)?, &mu(v)?);
         match y {
-            Some(y) => !upper && over.sigma_min(rows, &mu, y),
-            None => upper && over.sigma_max(rows, &above),
+            Some(y) => half.upper.is_none() && over.sigma_min(rows, &mu, y),
+            None => half.upper.is_some() && over.sigma_max(rows, &above),
         }
     }
 
-    /// `mu_v`.
-    fn mu(&self, over: &Over<'_, E>, (mu, places): (&[i64], u32), v: Vertex) -> Option<E::Number> {
-        let e = self.arithmetic;
+    /// By parameters, what is named for the quantities by which machines differ; for each row, or not at all.
+    fn by_parameters(&self, weights: &[Vec<i64>]) -> Option<Vec<BTreeMap<usize, i64>>> {
+        let inputs = self.problem.inputs.iter().enumerate();
+        let differing: Vec<usize> =
+            inputs.filter(|(_, input)| input.differs()).map(|(j, _)| j).collect();
+        let is_whole = weights.is_empty() || weights.len() == self.rows.len();
+        let of_row = |row: &Vec<i64>| {
+            let all = differing.iter().copied().zip(row.iter().copied());
+            (row.len() == differing.len()).then(|| all.filter(|(_, n)| *n != 0).collect())
+        };
+        weights.iter().map(of_row).collect::<Option<_>>().filter(|_| is_whole)
+    }
+
+    /// `mu_v`, of the one machine; positive of all.
+    fn mu(&self, over: &Over<'_, E>, half: Half<'_>, v: Vertex) -> Option<E::Number> {
+        let (e, (mu, places)) = (self.arithmetic, half.mu);
         let (&first, rest) = mu.split_first()?;
         if rest.len() != self.problem.dimension() || places >= MOST_PLACES {
             return None;
@@ -293,14 +313,22 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             0 => Some(sum),
             mu => sum.checked_add(mu.checked_mul(over.place(k, v)?)?),
         };
-        let number = |n| e.dyadic(n, places, &e.integer(1)?);
-        match over.controls {
-            None => number(rest.iter().enumerate().try_fold(first, term).filter(|&n| n > 0)?),
+        let one = e.integer(1)?;
+        let own = match over.controls {
+            None => e.dyadic(rest.iter().enumerate().try_fold(first, term)?, places, &one)?,
             Some(_) => {
-                let own = self.scaled(over, number(first)?, v)?;
-                let mu = e.add(&own, &number(rest.iter().enumerate().try_fold(0, term)?)?)?;
-                e.is_positive(&mu).then_some(mu)
+                let along = rest.iter().enumerate().try_fold(0, term)?;
+                let own = self.scaled(over, e.dyadic(first, places, &one)?, v)?;
+                e.add(&own, &e.dyadic(along, places, &one)?)?
             }
-        }
+        };
+        let of = |parameters: &[E::Number]| {
+            let terms = half.weights.iter().flatten();
+            let terms = terms.map(|(j, n)| e.dyadic(*n, places, parameters.get(*j)?));
+            e.sum(std::iter::once(Some(own.clone())).chain(terms))
+        };
+        let is_positive = e.is_positive(&of(&self.parameters)?);
+        let machine = over.tolerances.map_or(&self.parameters[..], |one| one.parameters);
+        is_positive.then(|| of(machine))?
     }
 }

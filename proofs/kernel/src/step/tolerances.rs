@@ -8,15 +8,21 @@ use crate::formula::{Formula, Op, Tape, Values};
 use crate::quantity::Test;
 use crate::slope::evaluate;
 use crate::test::tolerances::{is_of_second_order, OfSecondOrder, Tolerances};
-use crate::test::{width, Formulas, Over, Place};
+use crate::test::{width, Formulas, Half, Over, Place};
 use std::cell::OnceCell;
 use std::collections::BTreeSet;
 
 /// Whether these are directions for a test, or half of one, of `m` coordinates, one for each matrix; of other rows, of as many entries.
-pub(super) fn are_for(directions: &[Vec<i64>], (test, half): (&Test, bool), m: usize) -> bool {
+pub(super) fn are_for(
+    directions: &[Vec<i64>],
+    (test, half): (&Test, Option<Half<'_>>),
+    m: usize,
+) -> bool {
+    // Across, too, where `mu` depends on tolerances.
+    let is_two = |half: Half<'_>| half.upper.is_none() && !half.weights.is_empty();
     let expected = match test {
         Test::AtLeast(_) | Test::Beyond(..) => vec![],
-        Test::Conditioning(_) if !half => vec![m, m],
+        Test::Conditioning(_) if half.is_none_or(is_two) => vec![m, m],
         Test::Least(rows, _) | Test::Greatest(rows, _) => vec![width(rows)],
         _ => vec![m],
     };

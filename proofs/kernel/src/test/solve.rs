@@ -1,6 +1,6 @@
 //! Columns of the inverse of `M`.
 
-use super::tolerances::less_changes;
+use super::tolerances::{less_changes, Change, Directions};
 use super::{AtVertex, Over, Row, Varied};
 use crate::arithmetic::Enclosure;
 use crate::cell::Vertex;
@@ -45,8 +45,11 @@ impl<E: Enclosure> Over<'_, E> {
         let n = rows.len();
         let holds = |v: Vertex| {
             let start = self.less_inside(e.integer(0)?, v)?;
-            let own: Vec<Varied<_>> =
-                rows.iter().map(|row| self.row(row, v)).collect::<Option<_>>()?;
+            let own: Vec<Varied<_>> = rows
+                .iter()
+                .enumerate()
+                .map(|(i, row)| self.row(i, row, v))
+                .collect::<Option<_>>()?;
             let a: Vec<&[E::Number]> = own.iter().map(|(row, _)| &row[..n]).collect();
             let mut t = below_square(e, &a, (&weight(v)?, &start), evidence)?;
             let square = &self.of(test.square)?.range;
@@ -76,20 +79,21 @@ impl<E: Enclosure> Over<'_, E> {
         let e = self.slopes.arithmetic;
         let direction = self.toward(<[_]>::first)?.direction;
         for (j, (_, changes)) in rows.iter().enumerate() {
-            let change = |row: &Vector<E::Number>| {
-                let (d, a) = row.split_last()?;
+            let change = |change: &Change<E::Number>| {
+                let (d, a) = change.s.split_last()?;
                 let all = y.iter().map(|y| along(e, y, *places, a));
                 let mut s: Vector<E::Number> = all.collect::<Option<_>>()?;
                 if j == joint {
                     let own = s.get_mut(j)?;
                     *own = e.sub(own, &e.halve(&e.mul(square, d)?)?)?;
                 }
-                Some(s)
+                change.of(s, |_| None)
             };
             let changes: Vec<_> = changes.iter().map(change).collect::<Option<_>>()?;
             let fixed = (0..y.len()).map(|k| e.integer((k == j).into()));
             let fixed: Vector<E::Number> = fixed.collect::<Option<_>>()?;
-            less_changes(e, t, &fixed, &changes, &direction)?;
+            let directions = Directions { along: &direction, across: None, first: 0 };
+            less_changes(e, t, &fixed, &changes, &directions)?;
         }
         Some(())
     }

@@ -98,12 +98,15 @@ impl<E: Enclosure> Tolerances<'_, E> {
 
 impl<E: Enclosure> Over<'_, E> {
     /// At a vertex, for each step of a quantity, and then of two of second order, on which one of the formulas depends the
-    /// `s_vk` of all of them, in the order of parameters.
+    /// `s_vk` of all of them, in the order of parameters; and what it changes of the part of `mu` of this row ([`Half`]).
+    ///
+    /// [`Half`]: super::Half
     pub(super) fn changes<'f>(
         &self,
         formulas: impl Iterator<Item = &'f Formula> + Clone,
+        row: Option<usize>,
         v: Vertex,
-    ) -> Option<Vec<Vector<E::Number>>> {
+    ) -> Option<Vec<Change<E::Number>>> {
         let e = self.slopes.arithmetic;
         let Some(tolerances) = self.tolerances else { return Some(Vec::new()) };
         let mut all: BTreeMap<(Option<usize>, usize), Vector<E::Number>> = BTreeMap::new();
@@ -131,13 +134,23 @@ impl<E: Enclosure> Over<'_, E> {
                 }
             }
         }
+        let weights = self.half.and_then(|half| Some((half.weights.get(row?)?, half.mu.1)));
+        let weight = |by| match (by, weights) {
+            ((None, j), Some((all, places))) => all.get(&j).map(|n| (*n, places)),
+            _ => None,
+        };
+        let mut weighted = 0;
         let mut changes = Vec::new();
         for (by, slopes) in all {
+            weighted += usize::from(weight(by).is_some());
             for step in tolerances.steps_of(e, by)? {
-                changes.push(slopes.iter().map(|s| e.mul(&step, s)).collect::<Option<_>>()?);
+                let s = slopes.iter().map(|s| e.mul(&step, s)).collect::<Option<_>>()?;
+                let nu = weight(by).map(|(n, places)| e.dyadic(n, places, &step));
+                changes.push(Change { s, nu: nu.map_or(Some(None), |nu| nu.map(Some))? });
             }
         }
-        Some(changes)
+        // What `mu` depends on, its row does.
+        weights.is_none_or(|(all, _)| all.len() == weighted).then_some(changes)
     }
 
     /// The value of a formula at a vertex, or control point, of all machines.
@@ -152,9 +165,9 @@ impl<E: Enclosure> Over<'_, E> {
     pub(super) fn greatest_loss(&self, parts: &[(Formula, bool)], v: Vertex) -> Option<E::Number> {
         let e = self.slopes.arithmetic;
         let zero = e.integer(0)?;
-        let changes = self.changes(parts.iter().map(|(f, _)| f), v)?;
-        e.sum(changes.iter().map(|change| {
-            let terms = change.iter().zip(parts).map(|(s, &(_, subtracted))| match subtracted {
+        let changes = self.changes(parts.iter().map(|(f, _)| f), None, v)?;
+        e.sum(changes.iter().map(|Change { s, .. }| {
+            let terms = s.iter().zip(parts).map(|(s, &(_, subtracted))| match subtracted {
                 true => Some(s.clone()),
                 false => e.neg(s),
             });
@@ -171,6 +184,17 @@ impl<E: Enclosure> Over<'_, E> {
     /// The greatest one.
     pub fn greatest_at(&self, f: Formula, v: Vertex) -> Option<E::Number> {
         self.slopes.arithmetic.add(&self.own_at(f, v)?, &self.greatest_loss(&[(f, true)], v)?)
+    }
+
+    /// The second direction of the lower bound of a condition number, if there is one and it is not 0: `2^-4` times the one
+    /// that is named.
+    pub(super) fn across(&self) -> Option<Option<Vec<E::Number>>> {
+        let e = self.slopes.arithmetic;
+        let named = self.half.and_then(|_| self.tolerances?.directions.get(1));
+        let Some(named) = named.filter(|d| d.iter().any(|x| *x != 0)) else { return Some(None) };
+        let one = e.integer(1)?;
+        let all = named.iter().map(|&x| e.dyadic(x, 4, &one)).collect::<Option<_>>()?;
+        Some(Some(all))
     }
 
     /// Toward one of the directions: of a wedge in coordinates in which it is `2^places` times a unit vector.
@@ -249,6 +273,32 @@ impl<N: Clone + Default> Toward<N> {
     }
 }
 
+/// What a step changes of a row.
+#[derive(Clone)]
+pub(super) struct Change<N> {
+    pub s: Vector<N>,
+    /// Of `mu`, or what is more of the squares of coordinates.
+    pub nu: Option<N>,
+}
+
+impl<N> Change<N> {
+    /// Of what is made of the row.
+    pub fn of(&self, s: Vector<N>, nu: impl FnOnce(&N) -> Option<N>) -> Option<Self> {
+        let nu = self.nu.as_ref().map(nu);
+        Some(Change { s, nu: nu.map_or(Some(None), |nu| nu.map(Some))? })
+    }
+}
+
+/// Directions along and across which changes are taken off.
+pub(super) struct Directions<'a, N> {
+    /// The direction `w`.
+    pub along: &'a [N],
+    /// The direction `d`, if there is one.
+    pub across: Option<&'a [N]>,
+    /// The first of the coordinates of whose squares there may be more.
+    pub first: usize,
+}
+
 /// `T` less, for each change `s`, `p p^T/(2 tau)` with `p = tau s - e` and some `tau > 0`.
 ///
 /// **Lemma.** If this is positive definite for all `s_k` in their enclosures, so is
@@ -259,31 +309,112 @@ impl<N: Clone + Default> Toward<N> {
 ///
 /// Along `w` nothing is lost but what has to be if `tau = |e . w|/|s . w|`, and anything may be where one
 /// of these is zero. So the 1-norms are added to both: the longer `w`, the less they count.
+///
+/// A change may be `e s^T + s e^T + nu J`, `J` the identity but for its first entries, which may be 0.
+///
+/// **Lemma (along).** Where `e . w` is not zero it is `e (s + nu z)^T + (s + nu z) e^T + nu K`, with `K >= 0` and
+///
+/// ```text
+/// z = J w/(e . w) - e (w^T J w)/(2 (e . w)^2)    K = J - e z^T - z e^T
+/// ```
+///
+/// *Proof.* `K = P^T J P`, `P = I - w e^T/(e . w)`. ∎ So nothing of `nu K` is taken off where `nu >= 0`, and all where it is
+/// not; where `e . w` may be zero, all of `nu J`. Along `w`, `K` is zero. Without it it would be unsound: `T = diag(2, 1/2)`, `e = w = (1, 0)`,
+/// `s = 0`, `nu = -1`.
+///
+/// **Lemma (across).** `(p . v)^2 <= (|p - a d|^2 + a^2) (v^T J v + (d . v)^2)` for any `a`, where `J` is the identity. *Proof.*
+/// `p . v = (p - a d) . v + a (d . v)`, and the Cauchy-Schwarz inequality. ∎ So where `nu > 0`, `nu d d^T` is taken off, and of `p p^T` no
+/// more than `1/(2 tau) - nu/(|p - a d|^2 + a^2)` times. This is for where no one direction `w` is worst, and `T` is great along `d`.
+/// Without `nu d d^T` it would be unsound: `T = 1/2`, `e = 1`, `s = -1`, `nu = 1`, and a long `d`.
 pub(super) fn less_changes<E: Enclosure>(
     e: &E,
     t: &mut Triangle<E::Number>,
     fixed: &[E::Number],
-    changes: &[Vector<E::Number>],
-    direction: &[E::Number],
+    changes: &[Change<E::Number>],
+    Directions { along, across, first }: &Directions<'_, E::Number>,
 ) -> Option<()> {
     let one = e.integer(1)?;
     let size = |x: &[E::Number]| {
-        let along = e.dot(x, direction)?;
+        let along = e.dot(x, along)?;
         e.sum([&along].into_iter().chain(x).map(|x| e.magnitude(x)))
     };
     let of_fixed = size(fixed)?;
-    for s in changes {
-        let of_change = size(s)?;
+    for Change { s, nu } in changes {
+        let mut s = s.clone();
+        // `nu J` is not less than that of the least `nu`.
+        let nu = nu.as_ref().map(|nu| e.ends(nu)[0].clone());
+        let kept = nu.as_ref().zip(*across).filter(|(nu, _)| e.is_positive(nu));
+        match (&nu, &kept) {
+            (_, Some((nu, d))) => {
+                t.change(|i, j, entry| e.sub(entry, &e.mul(&e.mul(nu, d.get(i)?)?, d.get(j)?)?))?
+            }
+            (Some(nu), None) => less_along(e, t, (fixed, &mut s), nu, (along, *first))?,
+            (None, None) => (),
+        }
+        let of_change = size(&s)?;
         // One of the two is zero: nothing is changed.
         if !e.is_positive(&of_change) || !e.is_positive(&of_fixed) {
             continue;
         }
         let [tau, _] = e.ends(&e.ratio(&of_fixed, &one, &of_change)?);
-        let half = e.halve(&e.recip(&tau)?)?;
+        let mut half = e.halve(&e.recip(&tau)?)?;
         let p = |(s, x)| e.sub(&e.mul(&tau, s)?, x);
         let p: Vector<E::Number> = s.iter().zip(fixed).map(p).collect::<Option<_>>()?;
+        if let Some((nu, d)) = kept {
+            let [a, _] = e.ends(&e.ratio(&e.dot(&p, d)?, &one, &e.add(&one, &e.square(d)?)?)?);
+            let rest = p.iter().zip(d).map(|(p, d)| e.sub(p, &e.mul(&a, d)?));
+            let rest: Vector<E::Number> = rest.collect::<Option<_>>()?;
+            let squares = e.add(&e.square(&rest)?, &e.sqr(&a)?)?;
+            [_, half] = e.ends(&e.sub(&half, &e.ratio(nu, &one, &squares)?)?);
+            if !e.is_positive(&half) {
+                continue;
+            }
+        }
         let part = p.iter().map(|p| e.mul(&half, p)).collect::<Option<Vector<_>>>()?;
         t.change(|i, j, entry| e.sub(entry, &e.mul(&part[i], &p[j])?))?;
     }
     Some(())
+}
+
+/// `nu J` along `w`: `s` more by `nu z`, and `T` less what is taken off.
+fn less_along<E: Enclosure>(
+    e: &E,
+    t: &mut Triangle<E::Number>,
+    (fixed, s): (&[E::Number], &mut Vector<E::Number>),
+    nu: &E::Number,
+    (w, first): (&[E::Number], usize),
+) -> Option<()> {
+    let (zero, one, along) = (e.integer(0)?, e.integer(1)?, e.dot(fixed, w)?);
+    let of_squares = |i: usize, x: &E::Number| if i < first { zero.clone() } else { x.clone() };
+    let known = e.is_positive(&along) || e.is_positive(&e.neg(&along)?);
+    let z: Option<Vector<E::Number>> = match known {
+        false => None,
+        true => {
+            let inverse = e.recip(&along)?;
+            let w: Vector<E::Number> =
+                w.iter().enumerate().map(|(i, w)| of_squares(i, w)).collect();
+            let half = e.halve(&e.square(&w)?)?;
+            let own = e.mul(&e.mul(&half, &inverse)?, &inverse)?;
+            let z = |(w, x)| e.sub(&e.mul(w, &inverse)?, &e.mul(&own, x)?);
+            Some(w.iter().zip(fixed).map(z).collect::<Option<_>>()?)
+        }
+    };
+    if let Some(z) = &z {
+        *s =
+            s.iter().zip(z.iter()).map(|(s, z)| e.add(s, &e.mul(nu, z)?)).collect::<Option<_>>()?;
+    }
+    if e.is_nonnegative(nu) {
+        return Some(());
+    }
+    t.change(|i, j, entry| {
+        let own = if i == j { of_squares(i, &one) } else { zero.clone() };
+        let rest = match &z {
+            None => own,
+            Some(z) => {
+                let both = e.add(&e.mul(&fixed[i], &z[j])?, &e.mul(&z[i], &fixed[j])?)?;
+                e.sub(&own, &both)?
+            }
+        };
+        e.add(entry, &e.mul(nu, &rest)?)
+    })
 }

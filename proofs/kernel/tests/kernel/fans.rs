@@ -80,7 +80,10 @@ fn nothing_else_goes_with_a_fan() {
     assert!(!wrapped(|by| Evidence::Inside(by, 0, 0)), "inside of nothing");
     assert!(!wrapped(|by| Evidence::Turned(by, 0, 0)), "turned of nothing");
     assert!(!wrapped(|by| Evidence::Tolerances(by, "000".to_owned(), vec![vec![1, 0]])), "within");
-    assert!(!wrapped(|by| Evidence::Between(vec![1, 0, 0], 0, by.clone(), by)), "of one bound");
+    assert!(
+        !wrapped(|by| Evidence::Between(vec![1, 0, 0], 0, vec![], by.clone(), by)),
+        "of one bound"
+    );
     // Tests that are not about singular values have no directions.
     let claim = crate::certificates::claim(
         r#"{"mechanism":{"formulas":{"coordinates":["x"],"parameters":[],"definitions":[],"joints":[{"rho":"x"}]}},"workspace":{"box":{"min":["0"],"max":["1"]}},"require":[{"quantity":"joint_range","leg":1,"end":"max","bound":"2"}]}"#,
@@ -105,11 +108,12 @@ fn both_bounds_of_a_condition_number_have_the_same_mu() {
     type Halves = (Vec<i64>, u32, Box<Evidence>, Box<Evidence>);
     let halves = |change: &dyn Fn(Halves) -> Evidence| {
         with(CONDITIONING, |by| {
-            let Evidence::Between(mu, places, lower, upper) = by else { panic!("two bounds") };
+            let Evidence::Between(mu, places, _, lower, upper) = by else { panic!("two bounds") };
             change((mu, places, lower, upper))
         })
     };
-    let between = |(mu, places, lower, upper): Halves| Evidence::Between(mu, places, lower, upper);
+    let between =
+        |(mu, places, lower, upper): Halves| Evidence::Between(mu, places, vec![], lower, upper);
     assert!(halves(&between));
     assert!(
         !halves(&|(mu, p, lower, upper)| between((mu, p, upper, lower))),
@@ -136,6 +140,7 @@ fn both_bounds_of_a_condition_number_have_the_same_mu() {
             Evidence::Between(
                 mu.clone(),
                 p,
+                vec![],
                 Box::new(between((mu, p, lower, upper.clone()))),
                 upper,
             )
@@ -179,6 +184,6 @@ fn a_mu_of_its_own_for_each_direction_is_refused() {
     assert!(!accepted(&|by| Evidence::Fan(vec![Part(vec![1, 0], 0, 0, by.clone())])));
     assert!(!accepted(&|by| {
         let own = || Box::new(by.clone());
-        Evidence::Between(vec![1, 0, 0], 0, own(), own())
+        Evidence::Between(vec![1, 0, 0], 0, vec![], own(), own())
     }));
 }

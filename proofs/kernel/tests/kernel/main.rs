@@ -38,4 +38,5 @@ mod tolerances;
 mod turned;
 mod turned_atlas;
 mod turning;
+mod weights;
 mod witnesses;

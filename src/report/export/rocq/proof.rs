@@ -170,9 +170,9 @@ fn evidence(by: &Evidence) -> Exported<String> {
         },
         Evidence::Turned(..) => return not_covered("the evidence \"turned\""),
         Evidence::Fan(parts) => format!("Fan_ {}", list(fan(parts)?)),
-        Evidence::Between(mu, places, lower, upper) => {
+        Evidence::Between(mu, places, weights, lower, upper) => {
             let [lower, upper] = [evidence(lower)?, evidence(upper)?];
-            format!("Between_ {} {places}%N ({lower}) ({upper})", row(mu))
+            format!("Between_ {} {places}%N {} ({lower}) ({upper})", row(mu), matrix(weights))
         }
     })
 }
