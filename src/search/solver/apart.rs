@@ -43,10 +43,19 @@ pub(super) struct Stretched {
     pub values: Rows,
     value: f64,
     pub sign: f64,
-    vertex: usize,
+    pub vertex: usize,
     pub place: Vec<f64>,
     /// All directions, from the one that is stretched least, or most, on.
     pub directions: Vec<DVector<f64>>,
+}
+
+impl Worst {
+    /// Of the sum of both, with so much of the other one.
+    pub fn and(&self, other: &Self, part: f64) -> Self {
+        let more = other.weights.iter().map(|(f, weight)| (*f, part * weight));
+        let weights = self.weights.iter().copied().chain(more).collect();
+        Worst { weights, directions: Vec::new(), place: self.place.clone(), ..*self }
+    }
 }
 
 impl Stretched {
@@ -131,18 +140,26 @@ impl Over<'_> {
         worst: &Worst,
         (ends, lengths): (&str, &[f64]),
     ) -> Option<Evidence> {
-        // What fails mostly fails there.
-        let formulas = test::Over { first: worst.vertex, inside: None, ..*self.formulas };
         lengths.iter().find_map(|length| {
             let directions: Vec<Vec<i64>> =
                 worst.directions.iter().map(|w| in_integers(w, *length)).collect();
-            let found =
-                self.prover.checker.apart(&formulas, (ends, &directions), |formulas| {
-                    let apart = Over { formulas, ..*self };
-                    apart.at_controls(test).or_else(|| apart.at_vertices(test))
-                })??;
-            Some(Evidence::Tolerances(Box::new(found), ends.to_owned(), directions))
+            self.apart_along(test, (ends, &directions), worst.vertex)
         })
+    }
+
+    /// The same along directions, where what fails mostly fails at a vertex.
+    pub(super) fn apart_along(
+        &self,
+        test: &Test,
+        (ends, directions): (&str, &[Vec<i64>]),
+        vertex: usize,
+    ) -> Option<Evidence> {
+        let formulas = test::Over { first: vertex, inside: None, ..*self.formulas };
+        let found = self.prover.checker.apart(&formulas, (ends, directions), |formulas| {
+            let apart = Over { formulas, ..*self };
+            apart.at_controls(test).or_else(|| apart.at_vertices(test))
+        })??;
+        Some(Evidence::Tolerances(Box::new(found), ends.to_owned(), directions.to_owned()))
     }
 
     pub(super) fn worst<'r>(&'r self, test: &Test) -> Option<Worst> {

@@ -22,8 +22,8 @@ const LENGTHS: [f64; 2] = [8.0, 64.0];
 /// Parts of what tolerances change, of which so much is taken of what says that a direction is in a wedge.
 const TAKEN: [f64; 2] = [8.0, 2.0];
 /// Bits of `mu`, and where it is tried between what both bounds allow.
-const BITS: i32 = 24;
-const PARTS: [f64; 3] = [0.5, 0.3, 0.7];
+pub(super) const BITS: i32 = 24;
+pub(super) const PARTS: [f64; 3] = [0.5, 0.3, 0.7];
 
 impl Over<'_> {
     /// Evidence with directions apart, where tolerances fail next to the worst vertex already, so that
@@ -42,7 +42,9 @@ impl Over<'_> {
             return None;
         }
         match test {
-            Test::Conditioning(c) if self.formulas.half.is_none() => self.between(test, *c),
+            Test::Conditioning(c) if self.formulas.half.is_none() => {
+                self.with_mu_of_each(test, *c).or_else(|| self.between(test, *c))
+            }
             _ => self.fan(test, &found),
         }
     }

@@ -8,6 +8,7 @@
 //! | `apart`    | directions in which tolerances matter most                                  |
 //! | `parts`    | tolerances in parts, where they are too wide for boxes of any size          |
 //! | `fan`      | the directions apart, where several are worst at once                       |
+//! | `weighted` | a condition number of machines of which each has a `mu` of its own          |
 //! | `balance`  | what stands between the bounds of a condition number                         |
 //! | `less`     | how much of the workspace's own inequalities it takes                       |
 //! | `rows`, `directions`, `chords` | matrices, directions and the one `Y` to begin with      |
@@ -56,6 +57,7 @@ pub mod search;
 pub mod sector;
 pub mod value;
 pub(crate) mod violation;
+mod weighted;
 
 use crate::search::accepted::{check, Accepted};
 use crate::search::{Budget, Control, Stop};
