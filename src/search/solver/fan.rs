@@ -23,7 +23,7 @@ const LENGTHS: [f64; 2] = [8.0, 64.0];
 const TAKEN: [f64; 2] = [8.0, 2.0];
 /// Bits of `mu`, and where it is tried between what both bounds allow.
 pub(super) const BITS: i32 = 24;
-pub(super) const PARTS: [f64; 3] = [0.5, 0.3, 0.7];
+const PARTS: [f64; 3] = [0.5, 0.3, 0.7];
 
 impl Over<'_> {
     /// Evidence with directions apart, where tolerances fail next to the worst vertex already, so that

@@ -6,21 +6,23 @@
 
 use super::apart::{at_place, Stretched, LENGTHS_OF_SECOND_ORDER};
 use super::evidence::Over;
-use super::fan::{BITS, PARTS};
+use super::fan::BITS;
 use super::rows::{exponent, Form};
 use nalgebra::{DMatrix, DVector};
 use orthocert_kernel::certificate::Evidence;
 use orthocert_kernel::formula::Formula;
 use orthocert_kernel::quantity::Test;
 use orthocert_kernel::test::{self, Half};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Where what a step changes of `mu` is, from what it changes of the upper bound to what of the lower one.
-const BETWEEN: f64 = 0.6;
+const BETWEEN: f64 = 0.4;
 /// Lengths of directions across which `mu` grows, in sixteenths.
-const ACROSS: [f64; 4] = [128.0, 96.0, 160.0, 64.0];
-/// Lengths of directions along which a step hardly changes what is left.
-const LENGTHS: [f64; 4] = [16384.0, 4096.0, 1024.0, 64.0];
+const ACROSS: [f64; 4] = [96.0, 128.0, 64.0, 160.0];
+/// Lengths of the direction of the upper bound, from the worst machine, and from that in the middle.
+const LENGTHS: [&[f64]; 2] = [&[16384.0, 1024.0, 256.0, 64.0], &[256.0, 64.0]];
+/// `mu` is tried at multiples of a part of the way between what both bounds allow.
+const PARTS: usize = 8;
 
 /// By the parameter and the row, what a step changes of `M^T M`.
 type Changes = BTreeMap<(usize, usize), DMatrix<f64>>;
@@ -33,12 +35,14 @@ type Weighted = (Vec<i64>, Vec<BTreeMap<usize, i64>>, u32);
 
 /// What is so of the worst machine.
 struct Machine {
+    /// `c^2`.
+    bound: f64,
     least: Stretched,
     most: Stretched,
-    /// Where it is least, and where it is most.
+    /// Where `M` is least, and where it is greatest.
     changes: [Changes; 2],
-    /// Several `mu_0, .., mu_m` between both bounds.
-    mus: Vec<Vec<f64>>,
+    /// `mu_0, .., mu_m`, from the lower bound to the upper one.
+    mus: [Vec<f64>; PARTS],
 }
 
 impl Over<'_> {
@@ -51,48 +55,78 @@ impl Over<'_> {
         };
         let ends = self.worst_machine(&along(false)?.and(&along(true)?, bound.recip()), true)?;
         let by = self.of_second_order(test).unwrap_or_default();
+        let middle = self.to_second_order(&self.middle_machine(true), &by);
         let ends = self.to_second_order(&ends, &by);
         let (steps, none) = (self.steps(&ends)?, vec![0; self.m()]);
         let machine =
             |formulas: &test::Over<'_, _>| Over { formulas, ..*self }.machine(test, bound, &steps);
-        let both = [none.clone(), none.clone()];
-        let Machine { least, most, changes, mus } =
-            self.prover.checker.apart(self.formulas, (&ends, &both), machine)??;
-        let (plane, v) = (directions_of(&least, &changes[0]), most.directions.first()?);
-        let changed = changed_between(&changes, (&plane, v), bound);
-        let below: Vec<[Vec<i64>; 2]> = match least.directions.get(plane.ncols()) {
-            Some(d) if plane.ncols() > 1 => {
-                ACROSS.map(|length| [none.clone(), times(d, length)]).into()
-            }
-            _ => {
-                let w = least.directions.first()?;
-                LENGTHS_OF_SECOND_ORDER.map(|length| [times(w, length), none.clone()]).into()
-            }
+        let both = [none.clone(), none];
+        let machine = self.prover.checker.apart(self.formulas, (&ends, &both), machine)??;
+        // First, all directions but that of the greatest may be worst.
+        let several = BTreeSet::from([directions_of(&machine), self.m() - 1].map(|n| n.max(1)));
+        let from = ([&ends[..], &middle], &steps);
+        several.into_iter().rev().find_map(|n| self.weighted(test, &machine, from, n))
+    }
+
+    /// The same from this machine, where the `n` directions along which it is least may be worst.
+    fn weighted(
+        &self,
+        test: &Test,
+        Machine { bound, least, most, changes, mus }: &Machine,
+        ([ends, middle], steps): ([&str; 2], &Steps),
+        n: usize,
+    ) -> Option<Evidence> {
+        let Test::Conditioning(c_squared) = test else { return None };
+        let plane = DMatrix::from_columns(least.directions.get(..n)?);
+        let (v, w, none) = (most.directions.first()?, least.directions.first()?, vec![0; self.m()]);
+        let changed = changed_between(changes, (&plane, v), *bound);
+        let below: Vec<[Vec<i64>; 2]> = match least.directions.get(n) {
+            Some(d) if n > 1 => ACROSS.map(|length| [none.clone(), times(d, length)]).into(),
+            _ => LENGTHS_OF_SECOND_ORDER.map(|length| [times(w, length), none.clone()]).into(),
         };
-        mus.into_iter().find_map(|mu| {
-            let (mu, weights, places) = self.in_integers(&mu, &changed, &steps)?;
-            let shown = |upper, directions: &[Vec<i64>], vertex| {
+        // The more `mu` is, the easier is the upper bound, and the harder the lower one.
+        let (mut from, mut to) = (0, PARTS);
+        while let Some(part) = Some((from + to) / 2).filter(|part| *part > from) {
+            let (mu, weights, places) = self.in_integers(&mus[part], &changed, steps)?;
+            let shown = |upper, (ends, directions): (&str, &[Vec<i64>]), vertex| {
                 let half = Some(Half { mu: (&mu, places), weights: &weights, upper });
                 let formulas = test::Over { half, inside: None, ..*self.formulas };
-                Over { formulas: &formulas, ..*self }.apart_along(test, (&ends, directions), vertex)
+                Over { formulas: &formulas, ..*self }.apart_along(test, (ends, directions), vertex)
             };
-            let above = |length: &f64| shown(Some(c_squared), &[times(v, *length)], most.vertex);
-            let upper = LENGTHS.iter().find_map(above)?;
-            let lower = below.iter().find_map(|all| shown(None, all, least.vertex))?;
-            let of_row = |row: &BTreeMap<usize, i64>| {
-                steps.keys().map(|j| row.get(j).copied().unwrap_or(0)).collect()
+            let above = |(ends, length): (&str, f64)| {
+                shown(Some(*c_squared), (ends, &[times(v, length)]), most.vertex)
             };
-            let weights = weights.iter().map(of_row).collect();
-            Some(Evidence::Between(mu, places, weights, Box::new(lower), Box::new(upper)))
-        })
+            let machines = [ends, middle].into_iter().zip(LENGTHS);
+            let mut all =
+                machines.flat_map(|(ends, all)| all.iter().map(move |length| (ends, *length)));
+            let upper = all.find_map(above);
+            let lower = below.iter().find_map(|all| shown(None, (ends, all), least.vertex));
+            match (lower, upper) {
+                (Some(lower), Some(upper)) => {
+                    let of_row = |row: &BTreeMap<usize, i64>| {
+                        steps.keys().map(|j| row.get(j).copied().unwrap_or(0)).collect()
+                    };
+                    let weights = weights.iter().map(of_row).collect();
+                    let [lower, upper] = [lower, upper].map(Box::new);
+                    return Some(Evidence::Between(mu, places, weights, lower, upper));
+                }
+                (None, Some(_)) => from = part,
+                (Some(_), None) => to = part,
+                (None, None) => return None,
+            }
+        }
+        None
     }
 
     /// Of the one machine.
     fn machine(&self, test: &Test, bound: f64, steps: &Steps) -> Option<Machine> {
         let (least, most) = (self.most_stretched(test, false)?, self.most_stretched(test, true)?);
         let changes = [self.changes(&least, steps)?, self.changes(&most, steps)?];
-        let mus = PARTS.iter().filter_map(|part| self.mu(bound, Form::Plain, *part)).collect();
-        Some(Machine { least, most, changes, mus })
+        let mut mus = [const { Vec::new() }; PARTS];
+        for (part, mu) in mus.iter_mut().enumerate() {
+            *mu = self.mu(bound, Form::Plain, part as f64 / PARTS as f64)?;
+        }
+        Some(Machine { bound, least, most, changes, mus })
     }
 
     /// From the machine that these characters name.
@@ -165,14 +199,13 @@ impl Over<'_> {
     }
 }
 
-/// The directions along which `M` may be least of some machine.
-fn directions_of(least: &Stretched, by: &Changes) -> DMatrix<f64> {
+/// Along how many directions `M` may be least of some machine.
+fn directions_of(Machine { least, changes: [by, _], .. }: &Machine) -> usize {
     let square = least.values.square();
     let along = |w: &DVector<f64>| (&square * w).dot(w);
     let w = &least.directions[0];
     let changed: f64 = by.values().map(|form| (form * w).dot(w).abs()).sum();
-    let near = least.directions.iter().take_while(|v| along(v) - along(w) <= changed);
-    DMatrix::from_columns(&near.cloned().collect::<Vec<_>>())
+    least.directions.iter().take_while(|v| along(v) - along(w) <= changed).count()
 }
 
 /// By how much each step changes `mu`: between what it changes of both bounds.
