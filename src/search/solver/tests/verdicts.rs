@@ -1,6 +1,7 @@
 //! Verdicts, and what they cost.
 
 use super::*;
+use orthocert_kernel::certificate::{Evidence, Step};
 
 #[test]
 fn leaves() {
@@ -322,4 +323,31 @@ fn ties_are_not_refuted() {
     let answer = with_boxes(&claim, 1000).answer;
     let Answer::Undecided(undecided) = answer else { panic!("{answer:?}") };
     assert!(undecided.open.iter().all(|open| open.obligations == [1]));
+}
+
+/// With one `mu` for all machines it takes 2.226; the greatest of one machine is 2.18754, at a corner with two least singular values.
+#[test]
+fn a_condition_number_is_of_one_machine_at_a_time() {
+    let text = include_str!("../../../../proofs/kernel/tests/kernel/weights/orthoglide.json");
+    let Claim::Machine(own) = Certificate::read(text).expect("canonical").claim else {
+        panic!("a machine")
+    };
+    let corner = [80; 3].map(Expression::integer);
+    let proved = |bound: &str| {
+        let mut claim = own.clone();
+        claim.require[0].bound =
+            Bound::Max(Expression::try_from(bound.to_owned()).expect("a number"));
+        let cancel = AtomicBool::new(false);
+        let mut control = Control { cancel: &cancel, progress: &mut |_| {} };
+        proof_about(&claim, Some(&corner), Budget { max_boxes: 4, deadline: None }, &mut control)
+    };
+    for bound in ["2.2", "2.191"] {
+        let found = proved(bound).expect(bound);
+        let Proof::Tree(tree) = &found.proof else { panic!("a tree") };
+        let Some(Step(_, Evidence::Between(_, _, weights, ..))) = tree.nodes[0].by.last() else {
+            panic!("both bounds")
+        };
+        assert_eq!((tree.nodes.len(), weights.len()), (1, 3), "{bound}");
+    }
+    assert!(proved("2.1875").is_err());
 }
