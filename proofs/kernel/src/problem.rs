@@ -255,8 +255,7 @@ impl Problem {
 
     /// The quantities that are of second order in some evidence.
     fn of_second_order(&self, nodes: &[Node]) -> BTreeSet<usize> {
-        let differing = self.inputs.iter().enumerate().filter(|(_, input)| input.differs());
-        let differing: Vec<usize> = differing.map(|(j, _)| j).collect();
+        let differing: Vec<usize> = self.differing().collect();
         let parts = nodes.iter().flat_map(|node| &node.by).flat_map(|Step(_, by)| by.parts());
         let ends = parts.filter_map(|by| match by {
             Evidence::Tolerances(_, ends, _) => Some(ends),
@@ -339,6 +338,12 @@ impl Problem {
             });
         }
         Ok(all)
+    }
+
+    /// The numbers of the inputs by which machines differ.
+    pub fn differing(&self) -> impl Iterator<Item = usize> + '_ {
+        let inputs = self.inputs.iter().enumerate();
+        inputs.filter(|(_, input)| input.differs()).map(|(j, _)| j)
     }
 
     /// The toleranced inputs, in their order.

@@ -372,6 +372,7 @@ impl<E: Enclosure> Over<'_, E> {
             return None;
         }
         let (zero, one) = (e.integer(0)?, e.integer(1)?);
+        let toward = self.toward(<[_]>::first)?;
         let (mut t, mut all) = (self.start(m, rest)?, Vec::new());
         for (i, (row, y)) in rows.iter().zip(&evidence.y).enumerate() {
             let (row, changes) = self.row(i, row, v)?;
@@ -398,20 +399,19 @@ impl<E: Enclosure> Over<'_, E> {
                 let fixed: Vector<E::Number> = fixed.collect::<Option<_>>()?;
                 let half = |change: &Change<E::Number>| {
                     let z = residual(&change.s, change.s.last()?)?;
-                    change.of(z.iter().map(|z| e.halve(z)).collect::<Option<_>>()?, |nu| e.neg(nu))
+                    let half = z.iter().map(|z| e.halve(z)).collect::<Option<_>>()?;
+                    change.of(toward.vector(e, half)?, |nu| e.neg(nu))
                 };
                 let changes: Vec<_> = changes.iter().map(half).collect::<Option<_>>()?;
-                all.push((fixed, changes));
+                all.push((toward.vector(e, fixed)?, changes));
             }
         }
-        let (toward, across) = (self.toward(<[_]>::first)?, self.across()?);
         t = toward.matrix(e, t)?;
+        let across = self.across()?;
+        let across = across.as_deref();
+        let directions = Directions { along: &toward.direction, across, first: 0 };
         for (fixed, changes) in all {
-            let changes = changes.into_iter().map(|c| c.of(toward.vector(e, c.s.clone())?, some));
-            let changes: Vec<_> = changes.collect::<Option<_>>()?;
-            let across = across.as_deref();
-            let directions = Directions { along: &toward.direction, across, first: 0 };
-            less_changes(e, &mut t, &toward.vector(e, fixed)?, &changes, &directions)?;
+            less_changes(e, &mut t, &fixed, &changes, &directions)?;
         }
         Some(is_positive_definite(e, &t))
     }
@@ -437,8 +437,7 @@ impl<E: Enclosure> Over<'_, E> {
                 let [least, _] = e.ends(d);
                 let mut first = std::iter::once(least).chain(a.iter().cloned()).collect();
                 if !changes.is_empty() {
-                    let changes = changes.iter().map(|c| c.of(c.s.clone(), |nu| self.above(nu)));
-                    let changes = changes.collect::<Option<_>>()?;
+                    let changes = (&changes[..], |nu: &_| self.above(nu));
                     (first, rest) = less_changed_row(e, (first, rest), (d, a), changes, &toward)?;
                 }
                 eliminate(e, &first, &mut rest.entries)?;
@@ -454,18 +453,18 @@ fn less_changed_row<E: Enclosure>(
     e: &E,
     (first, rest): Bordered<E::Number>,
     (d, a): (&E::Number, &[E::Number]),
-    changes: Vec<Change<E::Number>>,
+    (changes, above): (&[Change<E::Number>], impl Fn(&E::Number) -> Option<E::Number>),
     toward: &Toward<E::Number>,
 ) -> Option<Bordered<E::Number>> {
     let (zero, m, own) = (e.integer(0)?, a.len(), toward.bordered(e, d, a)?);
     let fixed = (0..=m).map(|i| if i == 0 { e.integer(1) } else { Some(zero.clone()) });
-    let change = |change: Change<E::Number>| {
+    let change = |change: &Change<E::Number>| {
         let row = toward.vector(e, change.s.clone())?;
         let (d, a) = row.split_last()?;
         let s = std::iter::once(e.halve(d)).chain(a.iter().cloned().map(Some));
-        change.of(own.vector(e, s.collect::<Option<_>>()?)?, some)
+        change.of(own.vector(e, s.collect::<Option<_>>()?)?, &above)
     };
-    let changes: Vec<_> = changes.into_iter().map(change).collect::<Option<_>>()?;
+    let changes: Vec<_> = changes.iter().map(change).collect::<Option<_>>()?;
     let bordered = Triangle::new(m + 1, |i, j| match i.checked_sub(1) {
         None => first.get(j).cloned(),
         Some(i) => rest.row(i).get(j - i - 1).cloned(),
@@ -476,11 +475,6 @@ fn less_changed_row<E: Enclosure>(
     less_changes(e, &mut bordered, &fixed, &changes, &directions)?;
     let rest = Triangle::new(m, |i, j| bordered.row(i + 1).get(j - i).cloned())?;
     Some((bordered.row(0).iter().cloned().collect(), rest))
-}
-
-/// What stays as it is.
-fn some<N: Clone>(x: &N) -> Option<N> {
-    Some(x.clone())
 }
 
 /// The columns of `A`.

@@ -109,15 +109,13 @@ impl Over<'_> {
 
     /// Where the one machine is, with these quantities of second order.
     pub(super) fn to_second_order(&self, ends: &str, by: &BTreeSet<usize>) -> String {
-        let inputs = self.problem().inputs.iter().enumerate();
-        let differing = inputs.filter(|(_, input)| input.differs()).map(|(j, _)| j);
         let second = |(end, j): (char, usize)| match end {
             '-' if by.contains(&j) => '<',
             '0' if by.contains(&j) => '=',
             '+' if by.contains(&j) => '>',
             end => end,
         };
-        ends.chars().zip(differing).map(second).collect()
+        ends.chars().zip(self.problem().differing()).map(second).collect()
     }
 
     /// The machine in the middle; with directions of one scale, where it says so.
@@ -128,9 +126,7 @@ impl Over<'_> {
     /// Where each quantity by which machines differ is.
     fn ends(&self, scaled: bool, end: impl Fn(usize) -> char) -> String {
         let is_scale = |j| scaled && self.prover.is_scale(j);
-        let inputs = self.problem().inputs.iter().enumerate();
-        let differing = inputs.filter(|(_, input)| input.differs());
-        differing.map(|(j, _)| if is_scale(j) { '1' } else { end(j) }).collect()
+        self.problem().differing().map(|j| if is_scale(j) { '1' } else { end(j) }).collect()
     }
 
     /// From one machine.
@@ -398,6 +394,10 @@ pub(super) fn at_place(formula: &Slope<Pair>, place: &[f64]) -> f64 {
 
 /// A direction with this greatest component, in integers.
 pub(super) fn in_integers(w: &DVector<f64>, length: f64) -> Vec<i64> {
-    let scale = length / w.amax();
+    times(w, length / w.amax())
+}
+
+/// So many times a direction, in integers.
+pub(super) fn times(w: &DVector<f64>, scale: f64) -> Vec<i64> {
     w.iter().map(|x| (x * scale).round() as i64).collect()
 }

@@ -1,6 +1,6 @@
 //! Directions apart: where several are worst at once, evidence for those of each wedge.
 
-use super::apart::{in_integers, Stretched};
+use super::apart::{in_integers, times, Stretched};
 use super::doubles::Pair;
 use super::evidence::{next_to, Over};
 use super::rows::{exponent, Form};
@@ -168,7 +168,7 @@ impl Over<'_> {
 /// Orthogonal to the direction at an angle of the plane, in it.
 fn across([u, v]: [&DVector<f64>; 2], angle: f64) -> Vec<i64> {
     let c = v * angle.cos() - u * angle.sin();
-    c.iter().map(|x| (FINE * x).round() as i64).collect()
+    times(&c, FINE)
 }
 
 /// The power of two next to a number, or 0.

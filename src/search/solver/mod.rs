@@ -355,8 +355,7 @@ fn with_second_derivatives(problem: Problem) -> Problem {
     if problem.legs.iter().all(|leg| leg.scaled.is_some()) {
         return problem;
     }
-    let differing = problem.inputs.iter().enumerate().filter(|(_, input)| input.differs());
-    let by = differing.map(|(j, _)| j).collect();
+    let by = problem.differing().collect();
     problem.with_second_derivatives(&by)
 }
 

@@ -4,7 +4,7 @@
 //! square over `c^2` is convex in the rows, that of the least one concave, and both are nearly so in the tolerances: an affine
 //! `mu` is between them wherever the one is below the other.
 
-use super::apart::{at_place, Stretched, LENGTHS_OF_SECOND_ORDER};
+use super::apart::{at_place, times, Stretched, LENGTHS_OF_SECOND_ORDER};
 use super::evidence::Over;
 use super::fan::BITS;
 use super::rows::{exponent, Form};
@@ -131,8 +131,6 @@ impl Over<'_> {
 
     /// From the machine that these characters name.
     fn steps(&self, ends: &str) -> Option<Steps> {
-        let inputs = self.problem().inputs.iter().enumerate();
-        let differing = inputs.filter(|(_, input)| input.differs()).map(|(j, _)| j);
         let step = |(end, j): (char, usize)| {
             let (low, high) = *self.prover.of_one_scale().get(j)?;
             let step = match end {
@@ -142,7 +140,7 @@ impl Over<'_> {
             };
             Some((j, step))
         };
-        ends.chars().zip(differing).map(step).collect()
+        ends.chars().zip(self.problem().differing()).map(step).collect()
     }
 
     /// What steps change of `M^T M = sum_i A_i^T A_i/D_i`.
@@ -224,9 +222,4 @@ fn changed_between(
         Some((*at, if plane.ncols() > 1 { between.min(0.0) } else { between }))
     };
     by_upper.iter().filter_map(between).collect()
-}
-
-/// In integers.
-fn times(w: &DVector<f64>, length: f64) -> Vec<i64> {
-    w.iter().map(|x| (x * length).round() as i64).collect()
 }

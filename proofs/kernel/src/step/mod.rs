@@ -291,9 +291,7 @@ impl<'a, E: Enclosure> Checker<'a, E> {
 
     /// By parameters, what is named for the quantities by which machines differ; for each row, or not at all.
     fn by_parameters(&self, weights: &[Vec<i64>]) -> Option<Vec<BTreeMap<usize, i64>>> {
-        let inputs = self.problem.inputs.iter().enumerate();
-        let differing: Vec<usize> =
-            inputs.filter(|(_, input)| input.differs()).map(|(j, _)| j).collect();
+        let differing: Vec<usize> = self.problem.differing().collect();
         let is_whole = weights.is_empty() || weights.len() == self.rows.len();
         let of_row = |row: &Vec<i64>| {
             let all = differing.iter().copied().zip(row.iter().copied());

@@ -145,8 +145,11 @@ impl<E: Enclosure> Over<'_, E> {
             weighted += usize::from(weight(by).is_some());
             for step in tolerances.steps_of(e, by)? {
                 let s = slopes.iter().map(|s| e.mul(&step, s)).collect::<Option<_>>()?;
-                let nu = weight(by).map(|(n, places)| e.dyadic(n, places, &step));
-                changes.push(Change { s, nu: nu.map_or(Some(None), |nu| nu.map(Some))? });
+                let nu = match weight(by) {
+                    None => None,
+                    Some((n, places)) => Some(e.dyadic(n, places, &step)?),
+                };
+                changes.push(Change { s, nu });
             }
         }
         // What `mu` depends on, its row does.
@@ -274,7 +277,6 @@ impl<N: Clone + Default> Toward<N> {
 }
 
 /// What a step changes of a row.
-#[derive(Clone)]
 pub(super) struct Change<N> {
     pub s: Vector<N>,
     /// Of `mu`, or what is more of the squares of coordinates.
@@ -284,8 +286,11 @@ pub(super) struct Change<N> {
 impl<N> Change<N> {
     /// Of what is made of the row.
     pub fn of(&self, s: Vector<N>, nu: impl FnOnce(&N) -> Option<N>) -> Option<Self> {
-        let nu = self.nu.as_ref().map(nu);
-        Some(Change { s, nu: nu.map_or(Some(None), |nu| nu.map(Some))? })
+        let nu = match &self.nu {
+            None => None,
+            Some(own) => Some(nu(own)?),
+        };
+        Some(Change { s, nu })
     }
 }
 
