@@ -89,6 +89,7 @@ impl Evidence {
             Evidence::Direction(_) => "direction",
             Evidence::Negative => "negative",
             Evidence::Tolerances(..) => "tolerances",
+            Evidence::Together(..) => "together",
             Evidence::Fan(_) => "fan",
             Evidence::Between(..) => "between",
             Evidence::Cube => "cube",

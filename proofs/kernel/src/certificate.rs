@@ -186,6 +186,9 @@ pub enum Evidence {
     /// The evidence for one machine of the tolerance, less what the others differ by: which one, and a
     /// direction for each matrix.
     Tolerances(Box<Evidence>, String, Vec<Vec<i64>>),
+    /// In `tolerances`, evidence for singular values: for each row the upper triangle of an `R`, over `2^places`, not less than
+    /// what the quantities of second order change of it together; or none, where each is taken off by itself.
+    Together(Box<Evidence>, Vec<Vec<i64>>, u32),
     /// For singular values: evidence for the directions of each part.
     Fan(Vec<Part>),
     /// For a condition number: `mu_0, mu_1, .., mu_m`, over `2^places`, for each row how `mu` depends on the quantities by

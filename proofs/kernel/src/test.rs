@@ -26,7 +26,7 @@ pub mod curvature;
 pub mod solve;
 pub mod tolerances;
 
-use self::tolerances::{less_changes, Change, Directions, Tolerances, Toward};
+use self::tolerances::{less_changes, less_together, Change, Directions, Tolerances, Toward};
 use crate::arithmetic::{Arithmetic, Enclosure};
 use crate::cell::Vertex;
 use crate::control::Controls;
@@ -110,6 +110,8 @@ pub struct Over<'a, E: Enclosure> {
     pub inside: Option<Vec<E::Number>>,
     /// Where values at vertices are those of one machine: how the others differ. `values` and `controls` are of all.
     pub tolerances: Option<&'a Tolerances<'a, E>>,
+    /// What is not less than what tolerances change of each row together, over so many binary places.
+    pub together: Option<(&'a [Vec<i64>], u32)>,
     /// The directions for which something is shown of singular values, where it is not of all.
     pub wedge: Option<Wedge<'a>>,
     /// The bound of a condition number, where not both are shown.
@@ -172,6 +174,7 @@ impl<'a, E: Enclosure> Over<'a, E> {
             controls: None,
             inside: None,
             tolerances: None,
+            together: None,
             wedge: None,
             half: None,
             first: 0,
@@ -266,6 +269,29 @@ impl<'a, E: Enclosure> Over<'a, E> {
             })?;
         }
         Some(t)
+    }
+
+    /// `T` less what tolerances change of row `i`: together, if it says so, and each by itself.
+    fn less(
+        &self,
+        i: usize,
+        t: &mut Triangle<E::Number>,
+        fixed: &[E::Number],
+        mut changes: Vec<Change<E::Number>>,
+        directions: &Directions<'_, E::Number>,
+    ) -> Option<()> {
+        let (e, n) = (self.slopes.arithmetic, fixed.len());
+        if let Some((all, places)) = self.together {
+            let own = all.get(i)?;
+            if !own.is_empty() {
+                let one = e.integer(1)?;
+                let at = |i: usize, j: usize| i * (2 * n + 1 - i) / 2 + j - i;
+                let entry = |i, j| e.dyadic(*own.get(at(i, j))?, places, &one);
+                let r = Triangle::new(n, entry).filter(|_| own.len() == n * (n + 1) / 2)?;
+                changes = less_together(e, t, fixed, changes, (&r, directions.first))?;
+            }
+        }
+        less_changes(e, t, fixed, &changes, directions)
     }
 
     /// `c^2 mu`, of one bound of a condition number.
@@ -403,15 +429,15 @@ impl<E: Enclosure> Over<'_, E> {
                     change.of(toward.vector(e, half)?, |nu| e.neg(nu))
                 };
                 let changes: Vec<_> = changes.iter().map(half).collect::<Option<_>>()?;
-                all.push((toward.vector(e, fixed)?, changes));
+                all.push((i, toward.vector(e, fixed)?, changes));
             }
         }
         t = toward.matrix(e, t)?;
         let across = self.across()?;
         let across = across.as_deref();
         let directions = Directions { along: &toward.direction, across, first: 0 };
-        for (fixed, changes) in all {
-            less_changes(e, &mut t, &fixed, &changes, &directions)?;
+        for (i, fixed, changes) in all {
+            self.less(i, &mut t, &fixed, changes, &directions)?;
         }
         Some(is_positive_definite(e, &t))
     }
@@ -437,44 +463,44 @@ impl<E: Enclosure> Over<'_, E> {
                 let [least, _] = e.ends(d);
                 let mut first = std::iter::once(least).chain(a.iter().cloned()).collect();
                 if !changes.is_empty() {
-                    let changes = (&changes[..], |nu: &_| self.above(nu));
-                    (first, rest) = less_changed_row(e, (first, rest), (d, a), changes, &toward)?;
+                    (first, rest) = self.less_row((i, d, a), (first, rest), &changes, &toward)?;
                 }
                 eliminate(e, &first, &mut rest.entries)?;
             }
             Some(is_positive_definite(e, &rest))
         })
     }
-}
 
-/// `[[D_i, A_i], [A_i^T, ..]]`, by its first row and the rest, less what tolerances change of the row. The direction is
-/// `(u, v)`, where `u = -A_i . v/D_i` makes the form least.
-fn less_changed_row<E: Enclosure>(
-    e: &E,
-    (first, rest): Bordered<E::Number>,
-    (d, a): (&E::Number, &[E::Number]),
-    (changes, above): (&[Change<E::Number>], impl Fn(&E::Number) -> Option<E::Number>),
-    toward: &Toward<E::Number>,
-) -> Option<Bordered<E::Number>> {
-    let (zero, m, own) = (e.integer(0)?, a.len(), toward.bordered(e, d, a)?);
-    let fixed = (0..=m).map(|i| if i == 0 { e.integer(1) } else { Some(zero.clone()) });
-    let change = |change: &Change<E::Number>| {
-        let row = toward.vector(e, change.s.clone())?;
-        let (d, a) = row.split_last()?;
-        let s = std::iter::once(e.halve(d)).chain(a.iter().cloned().map(Some));
-        change.of(own.vector(e, s.collect::<Option<_>>()?)?, &above)
-    };
-    let changes: Vec<_> = changes.iter().map(change).collect::<Option<_>>()?;
-    let bordered = Triangle::new(m + 1, |i, j| match i.checked_sub(1) {
-        None => first.get(j).cloned(),
-        Some(i) => rest.row(i).get(j - i - 1).cloned(),
-    })?;
-    let mut bordered = own.matrix(e, bordered)?;
-    let fixed = own.vector(e, fixed.collect::<Option<_>>()?)?;
-    let directions = Directions { along: &own.direction, across: None, first: 1 };
-    less_changes(e, &mut bordered, &fixed, &changes, &directions)?;
-    let rest = Triangle::new(m, |i, j| bordered.row(i + 1).get(j - i).cloned())?;
-    Some((bordered.row(0).iter().cloned().collect(), rest))
+    /// `[[D_i, A_i], [A_i^T, ..]]`, by its first row and the rest, less what tolerances change of the row. The direction is
+    /// `(u, v)`, where `u = -A_i . v/D_i` makes the form least.
+    fn less_row(
+        &self,
+        (i, d, a): (usize, &E::Number, &[E::Number]),
+        (first, rest): Bordered<E::Number>,
+        changes: &[Change<E::Number>],
+        toward: &Toward<E::Number>,
+    ) -> Option<Bordered<E::Number>> {
+        let e = self.slopes.arithmetic;
+        let (zero, m, own) = (e.integer(0)?, a.len(), toward.bordered(e, d, a)?);
+        let fixed = (0..=m).map(|i| if i == 0 { e.integer(1) } else { Some(zero.clone()) });
+        let change = |change: &Change<E::Number>| {
+            let row = toward.vector(e, change.s.clone())?;
+            let (d, a) = row.split_last()?;
+            let s = std::iter::once(e.halve(d)).chain(a.iter().cloned().map(Some));
+            change.of(own.vector(e, s.collect::<Option<_>>()?)?, |nu| self.above(nu))
+        };
+        let changes: Vec<_> = changes.iter().map(change).collect::<Option<_>>()?;
+        let bordered = Triangle::new(m + 1, |i, j| match i.checked_sub(1) {
+            None => first.get(j).cloned(),
+            Some(i) => rest.row(i).get(j - i - 1).cloned(),
+        })?;
+        let mut bordered = own.matrix(e, bordered)?;
+        let fixed = own.vector(e, fixed.collect::<Option<_>>()?)?;
+        let directions = Directions { along: &own.direction, across: None, first: 1 };
+        self.less(i, &mut bordered, &fixed, changes, &directions)?;
+        let rest = Triangle::new(m, |i, j| bordered.row(i + 1).get(j - i).cloned())?;
+        Some((bordered.row(0).iter().cloned().collect(), rest))
+    }
 }
 
 /// The columns of `A`.

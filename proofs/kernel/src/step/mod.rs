@@ -146,6 +146,22 @@ impl<'a, E: Enclosure> Checker<'a, E> {
                 let then = |over: &Over<'_, E>| self.shows(over, test, evidence);
                 plain && self.apart(over, (ends, directions), then) == Some(true)
             }
+            (test, Evidence::Together(evidence, all, places)) => {
+                use Test::{Conditioning, Greatest, Least, SigmaMax, SigmaMin};
+                let is_plain = matches!(**evidence, Evidence::Lower(_) | Evidence::Test)
+                    && over.together.is_none()
+                    && over.wedge.is_none()
+                    && over.tolerances.is_some_and(|all| all.second.is_some())
+                    && *places < MOST_PLACES;
+                let rows = match test {
+                    SigmaMin(_) | SigmaMax(_) | Conditioning(_) => rows.len(),
+                    Least(rows, _) | Greatest(rows, _) => rows.len(),
+                    _ => return false,
+                };
+                let (together, inside) = (Some((&all[..], *places)), over.inside.clone());
+                let plain = is_plain && all.len() == rows;
+                plain && self.shows(&Over { together, inside, ..*over }, test, evidence)
+            }
             (Test::Conditioning(c), Evidence::Between(mu, places, weights, lower, upper)) => {
                 let Some(weights) = self.by_parameters(weights) else { return false };
                 let part = |evidence, upper| {

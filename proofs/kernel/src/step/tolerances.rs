@@ -32,10 +32,11 @@ pub(super) fn are_for(
 /// Whether the evidence for a test looks at nothing but formulas at vertices or control points, and at the
 /// workspace's and the orientations' own inequalities, which no tolerance changes.
 pub(super) fn is_of_vertices(test: &Test, evidence: &Evidence) -> bool {
-    use Evidence::{Conditioning, Control, Inside, Lower, Negative, Rank, Turned};
+    use Evidence::{Conditioning, Control, Inside, Lower, Negative, Rank, Together, Turned};
     match evidence {
         Control(inner) | Inside(inner, ..) | Turned(inner, ..) => is_of_vertices(test, inner),
         Evidence::Test => !matches!(test, Test::Apart(_) | Test::Curvature(_)),
+        Together(inner, ..) => matches!(**inner, Lower(_) | Evidence::Test),
         other => matches!(other, Lower(_) | Rank(_) | Conditioning(..) | Negative),
     }
 }

@@ -6,7 +6,7 @@ use crate::certificate::{Evidence, Node, Step, Tree};
 use crate::control::Control;
 use crate::formula::Formula;
 use crate::quantity::Test;
-use crate::test::tolerances::is_of_second_order;
+use crate::test::tolerances::{is_of_second_order, MOST_TOGETHER};
 use crate::test::Row;
 use std::collections::BTreeSet;
 
@@ -62,7 +62,9 @@ impl<E: Enclosure> Checker<'_, E> {
                 };
                 let entries =
                     controls().map(|(_, work)| *work).fold(entries, usize::saturating_add);
-                [entries, first.saturating_add(pairs)]
+                let together = self.together_of(test, inner, ends).saturating_mul((m + 2).pow(2));
+                let together = together.saturating_mul(points);
+                [entries, first.saturating_add(pairs).saturating_add(together)]
             }
             _ => [at_vertices.get(*obligation).copied().unwrap_or(0), 0],
         };
@@ -82,6 +84,28 @@ impl<E: Enclosure> Checker<'_, E> {
             node.by.iter().map(of_step).fold([entries, 0], both)
         };
         tree.nodes.iter().map(of_node).fold([0; 2], both)
+    }
+
+    /// The matrices that are looked at for what quantities change of rows together, at one vertex.
+    fn together_of(&self, test: Option<&Test>, by: &Evidence, ends: &str) -> usize {
+        let (Some(test), Some(derived)) = (test, &self.problem.derived) else { return 0 };
+        let all = match by {
+            Evidence::Inside(by, ..) | Evidence::Turned(by, ..) => {
+                return self.together_of(Some(test), by, ends)
+            }
+            Evidence::Together(_, all, _) => all,
+            _ => return 0,
+        };
+        let named = self.problem.differing().zip(ends.chars());
+        let together: BTreeSet<usize> =
+            named.filter(|(_, end)| matches!(end, '<' | '>')).map(|(j, _)| j).collect();
+        let of_row = |row: Vec<Formula>| {
+            let by = row.iter().filter_map(|f| derived.of.get(f)).flatten().map(|(j, _)| *j);
+            let own: BTreeSet<usize> = by.filter(|j| together.contains(j)).collect();
+            1usize << (2 * own.len().min(MOST_TOGETHER))
+        };
+        let rows = all.iter().zip(test.rows(&self.rows));
+        rows.filter(|(own, _)| !own.is_empty()).map(|(_, row)| of_row(row)).sum()
     }
 }
 

@@ -7,7 +7,7 @@ use super::Over;
 use crate::arithmetic::Enclosure;
 use crate::cell::Vertex;
 use crate::control::Controls;
-use crate::definite::{Triangle, Vector};
+use crate::definite::{is_positive_definite, Triangle, Vector};
 use crate::formula::{Formula, Values};
 use crate::slope::Slope;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -80,8 +80,14 @@ pub struct OfSecondOrder<'a, E: Enclosure> {
 }
 
 impl<E: Enclosure> Tolerances<'_, E> {
+    /// Whether what a quantity changes may be looked at together with what others do: of second order, with one step.
+    fn is_together(&self, j: usize) -> bool {
+        let is_second = self.second.as_ref().is_some_and(|second| second.by.contains(&j));
+        is_second && self.steps.get(j).is_some_and(|steps| steps.len() == 1)
+    }
+
     /// The steps of a quantity, or of two.
-    fn steps_of(&self, e: &E, quantities: (Option<usize>, usize)) -> Option<Vec<E::Number>> {
+    fn steps_of(&self, e: &E, quantities: Quantities) -> Option<Vec<E::Number>> {
         let steps = |j: usize| self.steps.get(j);
         match quantities {
             (None, j) => steps(j).cloned(),
@@ -109,7 +115,7 @@ impl<E: Enclosure> Over<'_, E> {
     ) -> Option<Vec<Change<E::Number>>> {
         let e = self.slopes.arithmetic;
         let Some(tolerances) = self.tolerances else { return Some(Vec::new()) };
-        let mut all: BTreeMap<(Option<usize>, usize), Vector<E::Number>> = BTreeMap::new();
+        let mut all: BTreeMap<Quantities, Vector<E::Number>> = BTreeMap::new();
         let (zero, length) = (e.integer(0)?, formulas.clone().count());
         let mut add = |by, k: usize, derivative| {
             let zeros = || std::iter::repeat_n(zero.clone(), length).collect();
@@ -149,7 +155,9 @@ impl<E: Enclosure> Over<'_, E> {
                     None => None,
                     Some((n, places)) => Some(e.dyadic(n, places, &step)?),
                 };
-                changes.push(Change { s, nu });
+                let is_together = |j: &usize| tolerances.is_together(*j);
+                let together = Some(by).filter(|(j, l)| j.iter().chain([l]).all(is_together));
+                changes.push(Change { together, s, nu });
             }
         }
         // What `mu` depends on, its row does.
@@ -276,8 +284,13 @@ impl<N: Clone + Default> Toward<N> {
     }
 }
 
+/// A quantity, or two, the first not after the other.
+pub(super) type Quantities = (Option<usize>, usize);
+
 /// What a step changes of a row.
 pub(super) struct Change<N> {
+    /// The quantity, or the two, if all are of second order and have one step.
+    pub together: Option<Quantities>,
     pub s: Vector<N>,
     /// Of `mu`, or what is more of the squares of coordinates.
     pub nu: Option<N>,
@@ -290,7 +303,7 @@ impl<N> Change<N> {
             None => None,
             Some(own) => Some(nu(own)?),
         };
-        Some(Change { s, nu })
+        Some(Change { together: self.together, s, nu })
     }
 }
 
@@ -302,6 +315,80 @@ pub(super) struct Directions<'a, N> {
     pub across: Option<&'a [N]>,
     /// The first of the coordinates of whose squares there may be more.
     pub first: usize,
+}
+
+/// More quantities than these are not looked at together.
+pub const MOST_TOGETHER: usize = 6;
+
+/// `T` less `R`, where that is not less than what quantities change together; and the changes that are left.
+///
+/// **Lemma (together).** Let quantities `j` of a set change it by `lambda_j E_j`, two of them by `lambda_j lambda_l E_jl`, and one by
+/// `lambda_j^2 E_jj`, `lambda_j` in `[0, 1]`. If for all parts `J` and `K` of the set
+///
+/// ```text
+/// R + sum_(j in J) (E_j + E_jj) + sum_(j < l in J) E_jl - (1/4) sum_(j in K) E_jj
+/// ```
+///
+/// is positive definite, and `T - R` too, so is `T` as it is changed. *Proof.* `lambda_j^2 = lambda_j - mu_j` with `mu_j = lambda_j (1 - lambda_j)`
+/// in `[0, 1/4]`. So for any `v != 0` the form of `R` and all changes is affine in each `lambda_j` and in each `mu_j`. It is not less than
+/// at some vertex of the box in which these are, where it is positive. ∎ All changes of a row are `e s^T + s e^T + nu J` with one `e`,
+/// so that `s` and `nu` are summed. With one `K`, none of it, it would be unsound: `R = 1/8`, `e = 1`, `s_1 = -1/2`, `s_11 = 1/2`, where
+/// the form is -1/8 at `lambda = 1/2`; with two steps of a quantity too, where `lambda_j` is in `[-1, 1]`.
+pub(super) fn less_together<E: Enclosure>(
+    e: &E,
+    t: &mut Triangle<E::Number>,
+    fixed: &[E::Number],
+    changes: Vec<Change<E::Number>>,
+    (r, first): (&Triangle<E::Number>, usize),
+) -> Option<Vec<Change<E::Number>>> {
+    let (own, apart): (Vec<_>, Vec<_>) =
+        changes.into_iter().partition(|change| change.together.is_some());
+    let own = own.iter().filter_map(|change| Some((change.together?, change)));
+    let own: Vec<(Quantities, &Change<E::Number>)> = own.collect();
+    let all = own.iter().flat_map(|((j, l), _)| j.iter().chain([l]));
+    let all: BTreeSet<usize> = all.copied().collect();
+    if all.len() > MOST_TOGETHER {
+        return None;
+    }
+    let squares = own.iter().filter(|((j, l), _)| *j == Some(*l));
+    let quarter = |(_, change): &(_, &Change<E::Number>)| {
+        let quarter = |s| e.neg(&e.halve(&e.halve(s)?)?);
+        change.s.iter().map(quarter).collect::<Option<Vector<_>>>()
+    };
+    let squares: Vec<Vector<E::Number>> = squares.map(quarter).collect::<Option<_>>()?;
+    let subset = |n: usize| (0..1u32 << n).map(move |set| move |k: usize| set >> k & 1 == 1);
+    let plus = |a: &[E::Number], b: &[E::Number]| {
+        a.iter().zip(b).map(|(a, b)| e.add(a, b)).collect::<Option<Vector<_>>>()
+    };
+    let zero = e.integer(0)?;
+    let zeros = || std::iter::repeat_n(zero.clone(), fixed.len()).collect::<Vector<_>>();
+    for in_j in subset(all.len()) {
+        let has = |j: &usize| all.iter().position(|other| other == j).is_some_and(&in_j);
+        let (mut s, mut nu) = (zeros(), zero.clone());
+        for (_, change) in own.iter().filter(|((j, l), _)| j.iter().chain([l]).all(has)) {
+            s = plus(&s, &change.s)?;
+            nu = change.nu.as_ref().map_or(Some(nu.clone()), |own| e.add(&nu, own))?;
+        }
+        for in_k in subset(squares.len()) {
+            let less = squares.iter().enumerate().filter(|(k, _)| in_k(*k));
+            let s = less.map(|(_, square)| square).try_fold(s.clone(), |s, x| plus(&s, x))?;
+            let mut form = r.clone();
+            form.change(|i, j, entry| {
+                let both = e.add(&e.mul(&fixed[i], &s[j])?, &e.mul(&s[i], &fixed[j])?)?;
+                let own = e.add(entry, &both)?;
+                if i == j && i >= first {
+                    e.add(&own, &nu)
+                } else {
+                    Some(own)
+                }
+            })?;
+            if !is_positive_definite(e, &form) {
+                return None;
+            }
+        }
+    }
+    t.change(|i, j, entry| e.sub(entry, r.row(i).get(j - i)?))?;
+    Some(apart)
 }
 
 /// `T` less, for each change `s`, `p p^T/(2 tau)` with `p = tau s - e` and some `tau > 0`.
@@ -344,7 +431,7 @@ pub(super) fn less_changes<E: Enclosure>(
         e.sum([&along].into_iter().chain(x).map(|x| e.magnitude(x)))
     };
     let of_fixed = size(fixed)?;
-    for Change { s, nu } in changes {
+    for Change { s, nu, .. } in changes {
         let mut s = s.clone();
         // `nu J` is not less than that of the least `nu`.
         let nu = nu.as_ref().map(|nu| e.ends(nu)[0].clone());
