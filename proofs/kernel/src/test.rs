@@ -155,7 +155,7 @@ pub struct Half<'a> {
 }
 
 /// A row at a vertex, `A_i` and then `D_i`, and what tolerances change of it.
-type Varied<N> = (Vector<N>, Vec<Change<N>>);
+pub type Varied<N> = (Vector<N>, Vec<Change<N>>);
 
 /// What a bound is at a vertex.
 pub type AtVertex<'a, N> = &'a dyn Fn(Vertex) -> Option<N>;
@@ -247,7 +247,7 @@ impl<'a, E: Enclosure> Over<'a, E> {
     }
 
     /// A row, of this number, at a vertex.
-    fn row(&self, i: usize, row: &Row<Formula>, vertex: Vertex) -> Option<Varied<E::Number>> {
+    pub fn row(&self, i: usize, row: &Row<Formula>, vertex: Vertex) -> Option<Varied<E::Number>> {
         let mut own = Vector::filled(0, Default::default);
         for f in &row.a {
             own.push(self.own_at(*f, vertex)?);
@@ -420,7 +420,7 @@ impl<E: Enclosure> Over<'_, E> {
                 let both = if i == j { e.add(&own, &own) } else { e.add(&own, &half(j, i)?) };
                 e.add(entry, &both?)
             })?;
-            if !changes.is_empty() {
+            if !changes.is_empty() || self.together.is_some() {
                 let fixed = y.iter().map(|&y| e.dyadic(y, places, &one));
                 let fixed: Vector<E::Number> = fixed.collect::<Option<_>>()?;
                 let half = |change: &Change<E::Number>| {
@@ -462,7 +462,7 @@ impl<E: Enclosure> Over<'_, E> {
                 let (d, a) = row.split_last()?;
                 let [least, _] = e.ends(d);
                 let mut first = std::iter::once(least).chain(a.iter().cloned()).collect();
-                if !changes.is_empty() {
+                if !changes.is_empty() || self.together.is_some() {
                     (first, rest) = self.less_row((i, d, a), (first, rest), &changes, &toward)?;
                 }
                 eliminate(e, &first, &mut rest.entries)?;

@@ -98,7 +98,7 @@ impl<E: Enclosure> Checker<'_, E> {
         };
         let named = self.problem.differing().zip(ends.chars());
         let together: BTreeSet<usize> =
-            named.filter(|(_, end)| matches!(end, '<' | '>')).map(|(j, _)| j).collect();
+            named.filter(|(_, end)| *end == '=').map(|(j, _)| j).collect();
         let of_row = |row: Vec<Formula>| {
             let by = row.iter().filter_map(|f| derived.of.get(f)).flatten().map(|(j, _)| *j);
             let own: BTreeSet<usize> = by.filter(|j| together.contains(j)).collect();

@@ -80,10 +80,10 @@ pub struct OfSecondOrder<'a, E: Enclosure> {
 }
 
 impl<E: Enclosure> Tolerances<'_, E> {
-    /// Whether what a quantity changes may be looked at together with what others do: of second order, with one step.
+    /// Whether what a quantity changes may be looked at together with what others do: of second order, with two steps.
     fn is_together(&self, j: usize) -> bool {
         let is_second = self.second.as_ref().is_some_and(|second| second.by.contains(&j));
-        is_second && self.steps.get(j).is_some_and(|steps| steps.len() == 1)
+        is_second && self.steps.get(j).is_some_and(|steps| steps.len() == 2)
     }
 
     /// The steps of a quantity, or of two.
@@ -285,12 +285,13 @@ impl<N: Clone + Default> Toward<N> {
 }
 
 /// A quantity, or two, the first not after the other.
-pub(super) type Quantities = (Option<usize>, usize);
+pub type Quantities = (Option<usize>, usize);
 
 /// What a step changes of a row.
-pub(super) struct Change<N> {
-    /// The quantity, or the two, if all are of second order and have one step.
+pub struct Change<N> {
+    /// The quantity, or the two, if all are of second order and have two steps.
     pub together: Option<Quantities>,
+    /// Of its entries.
     pub s: Vector<N>,
     /// Of `mu`, or what is more of the squares of coordinates.
     pub nu: Option<N>,
@@ -323,17 +324,17 @@ pub const MOST_TOGETHER: usize = 6;
 /// `T` less `R`, where that is not less than what quantities change together; and the changes that are left.
 ///
 /// **Lemma (together).** Let quantities `j` of a set change it by `lambda_j E_j`, two of them by `lambda_j lambda_l E_jl`, and one by
-/// `lambda_j^2 E_jj`, `lambda_j` in `[0, 1]`. If for all parts `J` and `K` of the set
+/// `lambda_j^2 E_jj`, `lambda_j` in `[-1, 1]`. If for all signs of the set and all parts `K` of it
 ///
 /// ```text
-/// R + sum_(j in J) (E_j + E_jj) + sum_(j < l in J) E_jl - (1/4) sum_(j in K) E_jj
+/// R + sum_j +-E_j + sum_(j < l) +-E_jl + sum_(j in K) E_jj
 /// ```
 ///
-/// is positive definite, and `T - R` too, so is `T` as it is changed. *Proof.* `lambda_j^2 = lambda_j - mu_j` with `mu_j = lambda_j (1 - lambda_j)`
-/// in `[0, 1/4]`. So for any `v != 0` the form of `R` and all changes is affine in each `lambda_j` and in each `mu_j`. It is not less than
-/// at some vertex of the box in which these are, where it is positive. ∎ All changes of a row are `e s^T + s e^T + nu J` with one `e`,
-/// so that `s` and `nu` are summed. With one `K`, none of it, it would be unsound: `R = 1/8`, `e = 1`, `s_1 = -1/2`, `s_11 = 1/2`, where
-/// the form is -1/8 at `lambda = 1/2`; with two steps of a quantity too, where `lambda_j` is in `[-1, 1]`.
+/// is positive definite, of two quantities with the product of their signs, and `T - R` too, so is `T` as it is changed. *Proof.* For any
+/// `v != 0` the form of `R` and all changes is affine in each `lambda_j` and in each `lambda_j^2`, if these are numbers of `[0, 1]` by
+/// themselves. So it is not less than at some vertex of the box in which these are, where it is positive. ∎ All changes of
+/// a row are `e s^T + s e^T + nu J` with one `e`, so that `s` and `nu` are summed. With all of the set for `K` alone it would be
+/// unsound: `R = 1/2`, `e = 1`, `s_1 = 1`, `s_11 = 1`, where the form is -1/2 at `lambda = -1/2`.
 pub(super) fn less_together<E: Enclosure>(
     e: &E,
     t: &mut Triangle<E::Number>,
@@ -343,35 +344,37 @@ pub(super) fn less_together<E: Enclosure>(
 ) -> Option<Vec<Change<E::Number>>> {
     let (own, apart): (Vec<_>, Vec<_>) =
         changes.into_iter().partition(|change| change.together.is_some());
+    // Of the two steps of a quantity one is minus the other.
     let own = own.iter().filter_map(|change| Some((change.together?, change)));
-    let own: Vec<(Quantities, &Change<E::Number>)> = own.collect();
+    let mut own: Vec<(Quantities, &Change<E::Number>)> = own.collect();
+    own.dedup_by_key(|(by, _)| *by);
     let all = own.iter().flat_map(|((j, l), _)| j.iter().chain([l]));
     let all: BTreeSet<usize> = all.copied().collect();
     if all.len() > MOST_TOGETHER {
         return None;
     }
-    let squares = own.iter().filter(|((j, l), _)| *j == Some(*l));
-    let quarter = |(_, change): &(_, &Change<E::Number>)| {
-        let quarter = |s| e.neg(&e.halve(&e.halve(s)?)?);
-        change.s.iter().map(quarter).collect::<Option<Vector<_>>>()
-    };
-    let squares: Vec<Vector<E::Number>> = squares.map(quarter).collect::<Option<_>>()?;
+    let (squares, own): (Vec<_>, Vec<_>) = own.into_iter().partition(|((j, l), _)| *j == Some(*l));
     let subset = |n: usize| (0..1u32 << n).map(move |set| move |k: usize| set >> k & 1 == 1);
     let plus = |a: &[E::Number], b: &[E::Number]| {
         a.iter().zip(b).map(|(a, b)| e.add(a, b)).collect::<Option<Vector<_>>>()
     };
     let zero = e.integer(0)?;
-    let zeros = || std::iter::repeat_n(zero.clone(), fixed.len()).collect::<Vector<_>>();
-    for in_j in subset(all.len()) {
-        let has = |j: &usize| all.iter().position(|other| other == j).is_some_and(&in_j);
-        let (mut s, mut nu) = (zeros(), zero.clone());
-        for (_, change) in own.iter().filter(|((j, l), _)| j.iter().chain([l]).all(has)) {
-            s = plus(&s, &change.s)?;
-            nu = change.nu.as_ref().map_or(Some(nu.clone()), |own| e.add(&nu, own))?;
+    for positive in subset(all.len()) {
+        let is_negative = |j: &usize| !all.iter().position(|k| k == j).is_some_and(&positive);
+        let mut s: Vector<_> = std::iter::repeat_n(zero.clone(), fixed.len()).collect();
+        let mut nu = zero.clone();
+        for ((j, l), change) in &own {
+            let is_negative = j.iter().chain([l]).filter(|j| is_negative(j)).count() == 1;
+            let signed = |x: &E::Number| if is_negative { e.neg(x) } else { Some(x.clone()) };
+            s = plus(&s, &change.s.iter().map(signed).collect::<Option<Vector<_>>>()?)?;
+            if let Some(own) = &change.nu {
+                nu = e.add(&nu, &signed(own)?)?;
+            }
         }
         for in_k in subset(squares.len()) {
-            let less = squares.iter().enumerate().filter(|(k, _)| in_k(*k));
-            let s = less.map(|(_, square)| square).try_fold(s.clone(), |s, x| plus(&s, x))?;
+            let more = squares.iter().enumerate().filter(|(k, _)| in_k(*k));
+            let mut more = more.map(|(_, (_, change))| change);
+            let s = more.try_fold(s.clone(), |s, change| plus(&s, &change.s))?;
             let mut form = r.clone();
             form.change(|i, j, entry| {
                 let both = e.add(&e.mul(&fixed[i], &s[j])?, &e.mul(&s[i], &fixed[j])?)?;
