@@ -36,6 +36,10 @@ impl Over<'_> {
             Test::Conditioning(_) => self.formulas.half.is_some_and(|half| half.upper.is_some()),
             _ => return None,
         };
+        let together = self.together(test, most);
+        if together.is_some() {
+            return together;
+        }
         let found = self.there(test, |there| there.most_stretched(test, most));
         let found = found.or_else(|| self.most_stretched(test, most))?;
         if self.holds_next_to(test, &found.place) {

@@ -8,6 +8,8 @@
 //! | `apart`    | directions in which tolerances matter most                                  |
 //! | `parts`    | tolerances in parts, where they are too wide for boxes of any size          |
 //! | `fan`      | the directions apart, where several are worst at once                       |
+//! | `together` | what tolerances change of a row together                                    |
+//! | `inequalities` | linear matrix inequalities                                             |
 //! | `weighted` | a condition number of machines of which each has a `mu` of its own          |
 //! | `balance`  | what stands between the bounds of a condition number                         |
 //! | `less`     | how much of the workspace's own inequalities it takes                       |
@@ -43,6 +45,7 @@ pub(crate) mod evidence;
 pub mod extremes;
 pub(crate) mod fails;
 mod fan;
+mod inequalities;
 mod less;
 pub mod margin;
 mod needed;
@@ -55,6 +58,7 @@ mod same;
 pub mod sample;
 pub mod search;
 pub mod sector;
+mod together;
 pub mod value;
 pub(crate) mod violation;
 mod weighted;
@@ -92,8 +96,10 @@ const GUARD_APART: u32 = 22;
 const MOST_IN_RANGES: [usize; 2] = [8, 2000];
 /// Boxes of one level with tolerances in parts.
 const MOST_ABREAST: usize = 4096;
+/// Boxes after which directions, and what quantities change together, are looked at.
+const MOST_IN_ONE: usize = 500;
 /// Boxes with directions apart: each takes long, and few are enough where they help.
-const MOST_APART: usize = 300;
+const MOST_APART: usize = 1000;
 /// The greatest bound that is searched with.
 const GREATEST_BOUND: f64 = 1e60;
 /// Open boxes from whose centres a violation is looked for.
@@ -403,8 +409,22 @@ fn from_root(
     control: &mut Control<'_>,
 ) -> Result<Vec<Node>, Stop> {
     let ends = Ends { hopeless: true, ..Ends::default() };
-    let found = search(prover, &Branch::whole(prover), ends, budget, control);
-    let found = found.ok_or(Stop::Hopeless)?;
+    let whole = Branch::whole(prover);
+    let mut tried = |max_boxes: usize| {
+        let budget = Budget { max_boxes, ..budget };
+        search(prover, &whole, ends, budget, control).ok_or(Stop::Hopeless)
+    };
+    let mut found = tried(match prover.problem.derived {
+        None => budget.max_boxes,
+        Some(_) => budget.max_boxes.min(MOST_IN_ONE),
+    })?;
+    if found.stop == Stop::Exhausted && prover.problem.derived.is_some() && !found.is_proof() {
+        // Of several directions, or quantities together, far fewer may do.
+        if let Some(nodes) = apart(prover, budget, control) {
+            return Ok(nodes);
+        }
+        found = search(prover, &whole, ends, budget, control).ok_or(Stop::Hopeless)?;
+    }
     match found.stop {
         Stop::Hopeless => apart_or_in_parts(prover, budget, control).ok_or(found.stop),
         _ if found.is_proof() => Ok(found.nodes),

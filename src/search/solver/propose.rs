@@ -118,7 +118,10 @@ impl Over<'_> {
     }
 
     /// The `mu` of one bound, of the one machine.
-    fn mu_at_centre(&self, Half { mu: (mu, places), weights, .. }: Half<'_>) -> Option<f64> {
+    pub(super) fn mu_at_centre(
+        &self,
+        Half { mu: (mu, places), weights, .. }: Half<'_>,
+    ) -> Option<f64> {
         let own = self.formulas.tolerances.map(|one| one.parameters);
         let parameters = own.unwrap_or(self.prover.parameters());
         let terms = weights.iter().flatten();

@@ -161,6 +161,9 @@ fn evidence(by: &Evidence) -> Exported<String> {
         Evidence::Tolerances(by, ends, directions) => {
             format!("Apart_ ({}) {} {}", evidence(by)?, quoted(ends), matrix(directions))
         }
+        Evidence::Together(by, rows, places) => {
+            format!("Together_ ({}) {} {places}", evidence(by)?, matrix(rows))
+        }
         Evidence::Inside(by, n, places) => format!("Inside_ ({}) ({n}) {places}", evidence(by)?),
         Evidence::Control(by) => match &**by {
             Evidence::Turned(by, n, places) => {
