@@ -307,10 +307,11 @@ Qed.
 (** ** A row of one machine, with changes, and what these change of the multiple *)
 
 Definition weighted (A : Type) : Type := (list A * A) * list (list A * A * A).
-Definition weighted_in (i : weighted fixed) (r : list R * R * R) : Prop :=
-  exists a d ms, Forall2 contains (fst (fst i)) a /\ contains (snd (fst i)) d /\
+Definition weighted_by (i : weighted fixed) (r : list R * R * R) (a : list R) (d : R) (ms : list (R * (list R * R * R))) : Prop :=
+  Forall2 contains (fst (fst i)) a /\ contains (snd (fst i)) d /\
     Forall2 (fun c m => is_share (fst m) /\ Forall2 contains (fst (fst c)) (fst (fst (snd m))) /\ contains (snd (fst c)) (snd (fst (snd m))) /\ contains (snd c) (snd (snd m))) (snd i) ms /\
     (forall v, dot (fst (fst r)) v = dot a v + sum_of ms (fun c => dot (fst (fst c)) v)) /\ snd (fst r) = d + sum_of ms (fun c => snd (fst c)) /\ snd r = sum_of ms snd.
+Definition weighted_in (i : weighted fixed) (r : list R * R * R) : Prop := exists a d ms, weighted_by i r a d ms.
 Definition changed (r : list (list R * R * R)) : R := fold_right (fun r s => snd r + s) 0 r.
 
 Fixpoint lower_weighted (w : list fixed) (across : option (list fixed)) (places : N) (Y : list (list Z)) (r : list (weighted fixed)) (start : triangle) : option triangle :=
@@ -463,9 +464,10 @@ Fixpoint changes_with (places : N) (s : list bool) (p : nat) (steps : list (list
 Definition weighted_at (places : N) (s : list bool) (steps : list (list fixed)) (ns : list Z) (r : list (multi slope) * multi slope) : weighted fixed :=
   let f q := at_vertex s (fst q) in ((map f (fst r), f (snd r)), changes_with places s 0 steps ns r).
 
-Lemma weighted_at_sound : forall places s steps ns r a d mss, Forall2 (multi_in bits) (fst r) a -> multi_in bits (snd r) d -> Forall2 (stepped bits) steps mss ->
+(** With the shares that steps have. *)
+Lemma weighted_at_shares : forall places s steps ns r a d mss, Forall2 (multi_in bits) (fst r) a -> multi_in bits (snd r) d -> Forall2 (stepped bits) steps mss ->
   let l := map corner s in let m e := at_lambda l (moved (fst e) (map stride mss) (snd e)) in
-  weighted_in (weighted_at places s steps ns r) (map m a, m d, dot (map (Y_value places) ns) (map stride mss)).
+  exists a0 d0 ms, weighted_by (weighted_at places s steps ns r) (map m a, m d, dot (map (Y_value places) ns) (map stride mss)) a0 d0 ms /\ map fst ms = map fst (concat mss).
 Proof.
   intros places s steps ns r a d mss ha hd hm l m.
   assert (At : forall q e p, multi_in bits q e -> contains (at_vertex s (nth p (snd q) (constant zero))) (at_lambda l (nth p (snd e) (0, [])))).
@@ -474,16 +476,16 @@ Proof.
     - split; [apply zero_sound | constructor]. }
   assert (C : forall p ns, exists ms, Forall2 (fun c m => is_share (fst m) /\ Forall2 contains (fst (fst c)) (fst (fst (snd m))) /\ contains (snd (fst c)) (snd (fst (snd m))) /\ contains (snd c) (snd (snd m))) (changes_with places s p steps ns r) ms /\
     (forall v, sum_of ms (fun c => dot (fst (fst c)) v) = dot (map (fun e => dot (map stride mss) (map (at_lambda l) (skipn p (snd e)))) a) v) /\
-    sum_of ms (fun c => snd (fst c)) = dot (map stride mss) (map (at_lambda l) (skipn p (snd d))) /\ sum_of ms snd = dot (map (Y_value places) ns) (map stride mss)).
+    sum_of ms (fun c => snd (fst c)) = dot (map stride mss) (map (at_lambda l) (skipn p (snd d))) /\ sum_of ms snd = dot (map (Y_value places) ns) (map stride mss) /\ map fst ms = map fst (concat mss)).
   { clear ns. induction hm as [| rs ks steps mss h hm IH]; intros p ns; cbn [changes_with].
-    - exists []. split; [constructor |]. split; [| split; [reflexivity | destruct ns; reflexivity]]. intro v. cbn [sum_of fold_right map]. symmetry. clear. revert v. induction a as [| e a IH]; intros [| t v]; cbn [map dot]; try reflexivity.
+    - exists []. split; [constructor |]. split; [| split; [reflexivity | split; [destruct ns; reflexivity | reflexivity]]]. intro v. cbn [sum_of fold_right map]. symmetry. clear. revert v. induction a as [| e a IH]; intros [| t v]; cbn [map dot]; try reflexivity.
       rewrite IH. ring.
-    - destruct (IH (S p) (tl ns)) as [ms [h1 [h2 [h3 h4]]]]. set (g (e : multi entry) := at_lambda l (nth p (snd e) (0, []))). set (y := Y_value places (List.hd 0%Z ns)).
+    - destruct (IH (S p) (tl ns)) as [ms [h1 [h2 [h3 [h4 h5]]]]]. set (g (e : multi entry) := at_lambda l (nth p (snd e) (0, []))). set (y := Y_value places (List.hd 0%Z ns)).
       exists (map (fun n : R * R => (fst n, (map (fun e => snd n * g e) a, snd n * g d, y * snd n))) ks ++ ms).
       assert (Sum : forall (f : list R * R * R -> R) k z, (forall n : R * R, f (map (fun e => snd n * g e) a, snd n * g d, y * snd n) = snd n * k) ->
         fold_right (fun (m : R * (list R * R * R)) s0 => fst m * f (snd m) + s0) z (map (fun n : R * R => (fst n, (map (fun e => snd n * g e) a, snd n * g d, y * snd n))) ks) = stride ks * k + z).
       { intros f k z e. unfold stride. clear - e. induction ks as [| n ks I]; cbn [map fold_right sum_of fst snd]; [ring |]. rewrite I, e. unfold sum_of. ring. }
-      split; [| split; [| split]].
+      split; [| split; [| split; [| split]]].
       + apply Forall2_app; [| exact h1]. eapply map_related; [| exact h]. intros q n [k1 k2]. cbn [fst snd]. split; [exact k1 |]. split; [| split; [apply mul_sound; [exact k2 | apply At, hd] |]].
         * rewrite map_map. eapply map_related; [| exact ha]. intros u e k. apply mul_sound; [exact k2 | apply At, k].
         * destruct (Z.eqb_spec (List.hd 0%Z ns) 0) as [z | _]; [| apply Arithmetic.dyadic_sound, k2]. replace (y * snd n) with 0 by (unfold y, Y_value; rewrite z; unfold Rdiv; ring). apply zero_sound.
@@ -494,8 +496,9 @@ Proof.
         rewrite (map_ext _ _ P). clear. revert v. induction a as [| e a I]; intros [| t v]; cbn [map]; try (cbn [dot]; ring).
         match goal with |- _ * dot (?b :: ?bs) _ + dot (?c :: ?cs) _ = dot (?d :: ?ds) _ => change (stride ks * (b * t + dot bs v) + (c * t + dot cs v) = d * t + dot ds v) end. rewrite <- I. ring.
       + unfold sum_of in *. rewrite fold_right_app, h3. rewrite (Sum (fun c => snd (fst c)) (g d)) by (intro; reflexivity). cbn [map]. rewrite (dot_skipped (stride ks :: map stride mss)). reflexivity.
-      + unfold sum_of in *. rewrite fold_right_app, h4. rewrite (Sum snd y) by (intro; cbn [snd]; ring). unfold y. destruct ns as [| n ns]; cbn [List.hd tl map dot]; [unfold Y_value, Rdiv |]; ring. }
-  destruct (C 0%nat ns) as [ms [h1 [h2 [h3 h4]]]]. exists (map (fun e => at_lambda l (fst e)) a), (at_lambda l (fst d)), ms. unfold weighted_at. cbn [fst snd].
+      + unfold sum_of in *. rewrite fold_right_app, h4. rewrite (Sum snd y) by (intro; cbn [snd]; ring). unfold y. destruct ns as [| n ns]; cbn [List.hd tl map dot]; [unfold Y_value, Rdiv |]; ring.
+      + cbn [concat]. rewrite !map_app, h5, map_map. reflexivity. }
+  destruct (C 0%nat ns) as [ms [h1 [h2 [h3 [h4 h5]]]]]. exists (map (fun e => at_lambda l (fst e)) a), (at_lambda l (fst d)), ms. split; [| exact h5]. unfold weighted_by, weighted_at. cbn [fst snd].
   split; [| split; [| split; [exact h1 | split; [| split]]]].
   - eapply map_related; [| exact ha]. intros q e [k _]. apply at_vertex_sound, k.
   - apply at_vertex_sound, hd.
@@ -503,6 +506,10 @@ Proof.
   - rewrite h3. unfold m. rewrite at_moved. reflexivity.
   - symmetry. exact h4.
 Qed.
+Lemma weighted_at_sound : forall places s steps ns r a d mss, Forall2 (multi_in bits) (fst r) a -> multi_in bits (snd r) d -> Forall2 (stepped bits) steps mss ->
+  let l := map corner s in let m e := at_lambda l (moved (fst e) (map stride mss) (snd e)) in
+  weighted_in (weighted_at places s steps ns r) (map m a, m d, dot (map (Y_value places) ns) (map stride mss)).
+Proof. intros places s steps ns r a d mss ha hd hm. destruct (weighted_at_shares places s steps ns r a d mss ha hd hm) as [a0 [d0 [ms [h _]]]]. exists a0, d0, ms. exact h. Qed.
 
 (** By what a multiple changes with a row, an entry of the row does. *)
 Definition is_still (s : slope) : bool :=
