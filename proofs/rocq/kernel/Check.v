@@ -7,7 +7,7 @@
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert Require Import Fixed.
 From Orthocert.kernel Require Import Formula Linear Arithmetic Slope Definite Test Cell Apart.
-From Orthocert.kernel Require Solve Near Nearby Spread Twofold Tolerances Second Curvature Scale Toward Weighted.
+From Orthocert.kernel Require Solve Near Nearby Spread Twofold Tolerances Second Curvature Scale Toward Weighted Together.
 Import ListNotations.
 Local Open Scope R_scope.
 
@@ -46,7 +46,9 @@ Inductive evidence :=
   (* of the directions between each of these and the next one: less n over 2^places times what says so *)
   | ByFan (parts : list (list Z * Z * N * evidence))
   (* condition numbers: [mu] as of [ByConditioning], more by multiples of parameters, of each row its own, if there are some; and each bound by itself *)
-  | ByBetween (places : N) (mu : list Z) (weights : list (list (nat * Z))) (lower upper : evidence).
+  | ByBetween (places : N) (mu : list Z) (weights : list (list (nat * Z))) (lower upper : evidence)
+  (* within tolerances: of each row what is not less than all that quantities of second order change of it, over 2^places, or nothing *)
+  | ByTogether (e : evidence) (places : N) (all : list (list Z)).
 
 (** Steps name tests by their number, counted from zero. *)
 Inductive tree :=
@@ -394,8 +396,48 @@ Definition shows_half (values : list (option slope)) (cell : list fixed) (upper 
       | _, _ => false
       end
   end.
+(** Some changes of rows looked at together: of |M v|^2 that it is more than [mu], or where [upper] less than c^2 mu, [mu] more by multiples of parameters if there are some. *)
+Definition shows_together (values : list (option slope)) (cell : list fixed) (r : rows nat) (own : list bool) (upper : option fixed) (mu : slope) (pl : N) (weights : list (list (nat * Z)))
+    (less : option slope) (e : evidence) (ends : list (nat * Tolerances.choice)) (curved : list nat) (directions : list (list Z)) (places : N) (all : list (list Z)) : bool :=
+  let m := length cell in
+  let coords := coords_from 0 cell in
+  let steps := Second.steps bits ends curved params in
+  let kinds := Together.kinds ends curved in
+  let of := machines values coords own ends curved in
+  let subtracted := match less with Some t => t | None => constant zero end in
+  let mu := total mu (constant (Weighted.total_of pl (Tolerances.starts_from ends 0 params) weights)) in
+  let nss := map (fun row => map (fun e => Weighted.multiple_for row (fst e)) ends) weights in
+  let over (holds : list bool -> fixed -> list (list Z * Together.grouped) -> bool) :=
+    match rows_apart values of r with
+    | Some r => forallb (fun p => Weighted.are_related (fst p) (snd p)) (combine nss r) &&
+        let r := map (fun p => (fst p, (fst (snd p), (Together.kinds_for steps kinds 0 (snd (snd p)), snd (snd p))))) (combine all (combine nss r)) in
+        forallb (fun s => holds s (at_vertex s subtracted) (map (fun p => (fst p, Together.grouped_at bits pl s steps (fst (snd p)) (fst (snd (snd p))) (snd (snd (snd p))))) r)) (signs m)
+    | None => false
+    end in
+  let definite t := match t with Some t => Solve.is_definite bits m t | None => false end in
+  let lower w across p Y := over (fun s t r => definite (Together.lower_grouped bits (map (Fixed.integer bits) w) across places p Y r (repeat [neg (add (at_vertex s mu) t)] m))) in
+  forallb (fun j => Nat.ltb j (length params)) (map fst ends) && are_once (map fst ends) &&
+  (are_among curved ends && forallb (fun v => Nat.eqb (length v) m) directions && Nat.eqb (length weights) (length r) && Nat.eqb (length all) (length r)) &&
+  (match curved with [] => false | _ => true end && (places <? 64)%N) &&
+  match upper, e, directions with
+  | None, ByLower p Y, [w] => lower w None p Y
+  | None, ByLower p Y, [w; d] => lower w (if forallb (fun x => (x =? 0)%Z) d then None else Some (map (fun x => Arithmetic.dyadic x 4 (Fixed.integer bits 1)) d)) p Y
+  | Some c2, ByTest, [w] => over (fun s t r => definite (Together.upper_grouped bits (map (Fixed.integer bits) w) c2 places r (repeat [sub (mul bits c2 (at_vertex s mu)) t] m)))
+  | _, _, _ => false
+  end.
+Definition unweighted (r : rows nat) : list (list (nat * Z)) := map (fun _ => []) r.
+
+Definition half_within (values : list (option slope)) (cell : list fixed) (upper : option fixed) (mu : slope) (wedge : option (list Z * list Z * Z * N))
+    (less : option slope) (e : evidence) (ends : list (nat * Tolerances.choice)) (curved : list nat) (direction : list Z) : bool :=
+  match e with
+  | ByTogether e places all => match wedge with
+      | None => shows_together values cell whole (kept (places_of_rows whole) tape) upper mu 0 (unweighted whole) less e ends curved [direction] places all
+      | Some _ => false
+      end
+  | _ => shows_half values cell upper mu wedge less e ends curved direction
+  end.
 Definition half_on (values : list (option slope)) (cell : list fixed) (upper : option fixed) (mu : slope) (wedge : option (list Z * list Z * Z * N)) (e : evidence) : bool :=
-  let half := shows_half values cell upper mu wedge in
+  let half := half_within values cell upper mu wedge in
   let inside_of k p f := match inside cell with Some tangent => (0 <=? k)%Z && f (Some (dyadic_slope k p tangent)) | None => false end in
   let none := map (fun _ => 0%Z) cell in
   match e with
@@ -433,8 +475,17 @@ Definition weighted_half (values : list (option slope)) (cell : list fixed) (upp
   | Some c2, ByTest, [w] => over (fun s t r => definite (Weighted.upper_weighted bits (map (Fixed.integer bits) w) c2 r (repeat [sub (mul bits c2 (at_vertex s mu)) t] m)))
   | _, _, _ => false
   end.
+Definition weighted_within (values : list (option slope)) (cell : list fixed) (upper : option fixed) (mu : slope) (pl : N) (weights : list (list (nat * Z)))
+    (less : option slope) (e : evidence) (ends : list (nat * Tolerances.choice)) (curved : list nat) (directions : list (list Z)) : bool :=
+  match e with
+  | ByTogether e places all => match upper, directions with
+      | None, [_; _] | Some _, [_] => shows_together values cell whole (kept (places_of_rows whole) tape) upper mu pl weights less e ends curved directions places all
+      | _, _ => false
+      end
+  | _ => weighted_half values cell upper mu pl weights less e ends curved directions
+  end.
 Definition weighted_half_on (values : list (option slope)) (cell : list fixed) (upper : option fixed) (mu : slope) (pl : N) (weights : list (list (nat * Z))) (e : evidence) : bool :=
-  let half := weighted_half values cell upper mu pl weights in
+  let half := weighted_within values cell upper mu pl weights in
   let inside_of k p f := match inside cell with Some tangent => (0 <=? k)%Z && f (Some (dyadic_slope k p tangent)) | None => false end in
   let none := map (fun _ => 0%Z) cell in
   let none := match upper with None => [none; none] | Some _ => [none] end in
@@ -445,14 +496,29 @@ Definition weighted_half_on (values : list (option slope)) (cell : list fixed) (
   | e => half None e [] [] none
   end.
 
+(** Of all that tolerances are about. *)
+Definition shows_within (values : list (option slope)) (cell : list fixed) (less : option slope) (t : test) (e : evidence)
+    (ends : list (nat * Tolerances.choice)) (curved : list nat) (directions : list (list Z)) : bool :=
+  match e with
+  | ByTogether e places all =>
+      let together r upper k := shows_together values cell r (kept (wanted_by t e) tape) upper (constant k) 0 (unweighted r) less e ends curved directions places all in
+      match t, directions with
+      | SigmaMin low, [_] => are_defined values && together whole None low
+      | Least r low, [_] => together r None low
+      | SigmaMax high, [_] => together whole (Some (Fixed.integer bits 1)) high
+      | _, _ => false
+      end
+  | _ => shows_apart values cell less t e ends curved directions
+  end.
+
 Definition shows_on (values : list (option slope)) (cell : list fixed) (t : test) (e : evidence) : bool :=
   match e with
   | ByTolerances (Inside e n places) ends curved directions =>
       match inside cell with
-      | Some tangent => (0 <=? n)%Z && shows_apart values cell (Some (dyadic_slope n places tangent)) t e ends curved directions
+      | Some tangent => (0 <=? n)%Z && shows_within values cell (Some (dyadic_slope n places tangent)) t e ends curved directions
       | None => false
       end
-  | ByTolerances e ends curved directions => shows_apart values cell None t e ends curved directions
+  | ByTolerances e ends curved directions => shows_within values cell None t e ends curved directions
   | Inside e n places =>
       match inside cell with
       | Some tangent => (0 <=? n)%Z && shows_there values cell (Some (dyadic_slope n places tangent)) t e
@@ -732,7 +798,7 @@ Qed.
 Lemma shows_sound : forall less t e, harmless less -> shows values (length cell) less t e = true -> holds (length cell) x t.
 Proof.
   rewrite <- lambda_length. intros less t e hs h.
-  destruct t as [low | high | c2 | f | r low | f g | p p' q q' distance | i k2 | r0 places0 Y0 | distance joints | near_ | row twice a b lever also], e as [| | places Y | places Y | places Y | places Y mu | | | | | | | | places Y | | places Y kappa | e0 ends0 directions0 | | |];
+  destruct t as [low | high | c2 | f | r low | f g | p p' q q' distance | i k2 | r0 places0 Y0 | distance joints | near_ | row twice a b lever also], e as [| | places Y | places Y | places Y | places Y mu | | | | | | | | places Y | | places Y kappa | e0 ends0 directions0 | | | |];
     cbn [shows holds] in *; try discriminate.
   1-3: apply andb_true_iff in h as [hd h]; split; [exact (are_defined_sound hd) |].
   1-2: eapply over_rows_sound; [| exact h |]; [auto |]; cbn beta; intros s es sm rel pos kappa2 v hk len nz;
@@ -1071,7 +1137,7 @@ Proof.
       replace (dot A0 []) with 0 by (destruct A0; reflexivity). lra. }
   assert (Constant : forall a k, contains a k -> forall s, length s = length cell -> contains ((fun _ : list bool => a) s) ((fun _ : list R => k) (map corner s))) by (intros; assumption).
   destruct t as [low | high | c2 | f | r low | f g | p p' q q' distance | i k2 | r0 places0 Y0 | distance joints | near_ | row twice a b lever also],
-    e as [| | places Y | places Y | places Y | places Y mu | | | | | | | | places Y | | places Y kappa | e0 ends0 directions0 | | |]; try discriminate; try (destruct directions; discriminate).
+    e as [| | places Y | places Y | places Y | places Y mu | | | | | | | | places Y | | places Y kappa | e0 ends0 directions0 | | | |]; try discriminate; try (destruct directions; discriminate).
   - destruct directions as [| u [|]]; try discriminate. apply andb_true_iff in h as [hd' h]. cbn [holds]. split; [exact (are_defined_sound cell x lambda keep (encloses_all theta theta_in) hd') |].
     exists (map_rows formula_at whole). split; [left; reflexivity |].
     assert (Reg : regular x (map_rows formula_at whole)) by exact (proj1 (Over _ (fun s t i => match Tolerances.lower_apart bits (map (Fixed.integer bits) u) places Y i (repeat [neg (add low t)] (length cell)) with Some t => Solve.is_definite bits (length cell) t | None => false end) h)).
@@ -1339,7 +1405,7 @@ Proof.
   assert (W_in : forall w : list Z, Forall2 contains (map (Fixed.integer bits) w) (map IZR w)) by (induction w; cbn; constructor; auto using integer_sound).
   assert (D : forall T U v, match T with Some t => Solve.is_definite bits (length cell) t | None => false end = true -> (forall t, T = Some t -> triangle_in bits t U) -> length v = length cell -> nonzero v -> 0 < quad U v)
     by (intros T U v; exact (definite_apart T U v (length cell))).
-  destruct upper as [c2 |], e as [| | places Y | places Y | places Y | places Y mu0 | | | | | | | | places Y | | places Y kappa | e0 ends0 directions0 | | |]; try discriminate.
+  destruct upper as [c2 |], e as [| | places Y | places Y | places Y | places Y mu0 | | | | | | | | places Y | | places Y kappa | e0 ends0 directions0 | | | |]; try discriminate.
   - destruct directions as [| w [|]]; try discriminate. pose proof (ld w (or_introl eq_refl)) as lwd. apply Nat.eqb_eq in lwd.
     destruct (Over (fun s t i => match Weighted.upper_weighted bits (map (Fixed.integer bits) w) c2 i (repeat [sub (mul bits c2 (at_vertex s mu')) t] (length cell)) with Some t => Solve.is_definite bits (length cell) t | None => false end) h) as [R G].
     split; [exact R |]. intros v lv nz _ c hc. destruct (upper_energy _ v (proj2 R)) as [z E].
@@ -1362,7 +1428,115 @@ Proof.
       pose proof (D (Some t') U v hh ltac:(intros t1 e'; injection e' as <-; exact hU) lv nz) as P. specialize (qU v ltac:(rewrite map_length; congruence)). rewrite hch in qU. rewrite <- lv, quad_diagonal in qU. lra. }
     rewrite at_q in P. pose proof (Rmult_le_pos _ _ (dot_self v) el0). replace (at_lambda lambda q + W0 + (W - W0)) with (at_lambda lambda q + W) in P by ring. lra.
 Qed.
+(** Shares of steps, too, of parameters of second order that have one. *)
+Lemma all_shares : exists theta0 mss z, Forall2 contains (Tolerances.starts_from ends 0 params) theta0 /\ Forall2 contains params theta0 /\
+  (forall j, ~ In j (map fst ends) -> nth j theta0 0 = nth j theta 0) /\ Forall2 (Tolerances.stepped bits) (Second.steps bits ends curved params) mss /\
+  map Tolerances.stride mss = Second.differences ends curved theta0 theta /\ (forall p, Tolerances.is_share (z p)) /\ Together.are_so z (Together.kinds ends curved) mss.
+Proof.
+  destruct strides as [theta0 [mss [h0 [h1 [same [hm hd]]]]]]. destruct (Together.shares_sound bits ends curved params theta0 theta mss hm hd) as [mss' [z [k1 [k2 [k3 k4]]]]].
+  exists theta0, mss', z. repeat (split; [assumption |]). exact k4.
+Qed.
+Theorem shows_together_sound : forall r upper mu pl weights less e directions places all, harmless lambda less ->
+  shows_together values cell r own upper mu pl weights less e ends curved directions places all = true ->
+  of_these x (map_rows formula_at r) (fun M => forall q v, entry_in bits mu q -> length v = length cell -> nonzero v -> let k := at_lambda lambda q + Weighted.total_at pl theta weights in
+    match upper with None => k * dot v v < energy M v | Some c2 => forall c, contains c2 c -> energy M v < c * k * dot v v end).
+Proof.
+  intros r upper mu pl weights less e directions places all hs h. unfold shows_together in h. cbv zeta in h. apply andb_true_iff in h as [shape h]. apply andb_true_iff in shape as [shape _]. apply andb_true_iff in shape as [_ shape].
+  apply andb_true_iff in shape as [shape la]. apply andb_true_iff in shape as [shape lw]. apply andb_true_iff in shape as [_ ld]. apply Nat.eqb_eq in lw, la. rewrite forallb_forall in ld.
+  destruct all_shares as [theta0 [mss [z [h0 [h1 [same [hm [hd [hz hk]]]]]]]]]. pose proof (are_once_sound _ ends_once) as once.
+  assert (L : exists el, entry_in bits match less with Some t => t | None => constant zero end el /\ 0 <= at_lambda lambda el).
+  { destruct less as [s |]; [exact hs |]. exists (0, []). split; [apply constant_in, zero_sound | unfold at_lambda; cbn; lra]. }
+  destruct L as [el [hel el0]]. set (subtracted := match less with Some t => t | None => constant zero end) in *.
+  set (W := Weighted.total_at pl theta weights). set (W0 := Weighted.total_at pl theta0 weights).
+  set (mu' := total mu _) in h.
+  assert (Mu : forall q, entry_in bits mu q -> exists q', entry_in bits mu' q' /\ forall l, at_lambda l q' = at_lambda l q + W0).
+  { intros q hq. destruct (total_in bits _ _ _ _ hq (constant_in bits _ _ (Weighted.total_sound bits pl _ theta0 weights h0))) as [q' [hq' eq']]. exists q'. split; [exact hq' |]. intro l. rewrite eq', at_constant. reflexivity. }
+  set (nss := map (fun row => map (fun e => Weighted.multiple_for row (fst e)) ends) weights) in *.
+  assert (ln : length nss = length r) by (unfold nss; rewrite map_length; exact lw).
+  assert (Changed : forall (real : list (list R * R)), length real = length nss ->
+    Weighted.changed (map (fun p => (snd p, dot (map (Y_value pl) (fst p)) (map Tolerances.stride mss))) (combine nss real)) = W - W0).
+  { unfold nss, W, W0. clear - hd once same. induction weights as [| row rows IH]; intros [| p real] l; try discriminate; [cbn; ring |].
+    cbn [map combine Weighted.changed fold_right fst snd Weighted.total_at]. unfold Weighted.changed, Weighted.total_at in IH. rewrite IH by (cbn in l; congruence). rewrite hd. unfold Second.differences. cbv zeta.
+    rewrite <- (app_nil_r (map (Y_value pl) _)), Second.dot_app by (rewrite !map_length; reflexivity). cbn [dot].
+    rewrite (Weighted.multiple_changes pl ends theta0 theta row once same). ring. }
+  set (steps := Second.steps bits ends curved params) in *. set (kinds := Together.kinds ends curved) in *.
+  set (as_rows := fun srs : list (list (Tolerances.multi slope) * Tolerances.multi slope) => map (fun p => (fst p, (fst (snd p), (Together.kinds_for steps kinds 0 (snd (snd p)), snd (snd p))))) (combine all (combine nss srs))).
+  set (at_row := fun s (p : list Z * (list Z * (list Together.kind * (list (Tolerances.multi slope) * Tolerances.multi slope)))) => (fst p, Together.grouped_at bits pl s steps (fst (snd p)) (fst (snd (snd p))) (snd (snd (snd p))))).
+  assert (Over : forall (holds_at : list bool -> fixed -> list (list Z * Together.grouped) -> bool),
+    match rows_apart values of r with Some srs => forallb (fun p => Weighted.are_related (fst p) (snd p)) (combine nss srs) &&
+      forallb (fun s => holds_at s (at_vertex s subtracted) (map (at_row s) (as_rows srs))) (signs (length cell)) | None => false end = true ->
+    regular x (map_rows formula_at r) /\ forall c p w v,
+      (forall l l1 l2 a b, (forall e, at_lambda l e = a * at_lambda l1 e + b * at_lambda l2 e) -> a + b = 1 -> c l = a * c l1 + b * c l2) ->
+      (forall s t T i real, length s = length cell -> holds_at s t i = true -> contains t T -> Forall2 (fun i r => Together.grouped_in bits z (snd i) r) i real -> Weighted.changed real = W - W0 ->
+        0 < c (map corner s) + p * T + form w (map fst real) v) ->
+      0 < c lambda + p * at_lambda lambda el + form w (map_rows (value x theta) (map_rows formula_at r)) v).
+  { intros holds_at k. destruct (rows_apart values of r) as [srs |] eqn:er; [| discriminate]. apply andb_true_iff in k as [_ k].
+    destruct (rows_apart_sound theta0 mss r srs h0 h1 same hd er) as [reg [es [e1 e2]]]. split; [exact reg |]. intros c p w v affine H. rewrite e2.
+    assert (le : length es = length nss) by (rewrite ln; rewrite <- (map_length (fun e => (map (value_of mss lambda) (fst e), value_of mss lambda (snd e))) es), <- e2; unfold map_rows; rewrite !map_length; reflexivity).
+    rewrite forallb_forall in k. set (move := fun e : Tolerances.multi entry => Tolerances.moved (fst e) (map Tolerances.stride mss) (snd e)).
+    set (E := map (fun e : list (Tolerances.multi entry) * Tolerances.multi entry => (map move (fst e), move (snd e))) es).
+    assert (R0 : forall l, map (fun e : list (Tolerances.multi entry) * Tolerances.multi entry => (map (value_of mss l) (fst e), value_of mss l (snd e))) es = map_rows (at_lambda l) E).
+    { intro l. unfold E, map_rows. rewrite map_map. apply map_ext. intros [a d]. cbn [fst snd]. rewrite map_map. reflexivity. }
+    rewrite R0. apply (vertices_decide lambda (fun l => c l + p * at_lambda l el + form w (map_rows (at_lambda l) E) v) lambda_in).
+    - intros before t after. rewrite (form_affine _ _ _ _ _ (at_lambda_affine before t after)).
+      rewrite (affine _ _ _ _ _ (at_lambda_affine before t after)) by field. rewrite (at_lambda_affine before t after el). field.
+    - intros s len. rewrite lambda_length in len.
+      assert (K : holds_at s (at_vertex s subtracted) (map (at_row s) (as_rows srs)) = true) by (apply k; rewrite <- len; apply signs_all).
+      rewrite <- R0. set (at_ := map _ es).
+      assert (l_at : length at_ = length nss) by (unfold at_; rewrite map_length; exact le).
+      specialize (H s (at_vertex s subtracted) _ _ (map (fun p => (snd p, dot (map (Y_value pl) (fst p)) (map Tolerances.stride mss))) (combine nss at_)) len K (at_vertex_sound bits s _ _ hel)).
+      assert (F : map fst (map (fun p : list Z * (list R * R) => (snd p, dot (map (Y_value pl) (fst p)) (map Tolerances.stride mss))) (combine nss at_)) = at_).
+      { rewrite map_map. cbn [fst]. clear - l_at. revert l_at. generalize nss. induction at_ as [| a l I]; intros [| n ns] e; try discriminate; [reflexivity |]. cbn [combine map snd]. rewrite I by (cbn in e; congruence). reflexivity. }
+      rewrite F in H. apply H; [| apply Changed; exact l_at]. unfold at_. assert (lr : length all = length nss) by congruence. clear - e1 hm hk lr. unfold as_rows. revert lr. generalize all, nss.
+      induction e1 as [| q e srs es [k1 k2] e1 I]; intros [| l ls] [| n ns] e'; try discriminate; cbn [combine map]; constructor; [| apply I; cbn in e'; congruence].
+      cbn [fst snd at_row]. exact (Together.grouped_at_sound bits pl s steps n kinds z q (fst e) (snd e) mss k1 k2 hm hk). }
+  pose proof (dot_self) as d0.
+  assert (W_in : forall w : list Z, Forall2 contains (map (Fixed.integer bits) w) (map IZR w)) by (induction w; cbn; constructor; auto using integer_sound).
+  assert (D : forall T U v, match T with Some t => Solve.is_definite bits (length cell) t | None => false end = true -> (forall t, T = Some t -> triangle_in bits t U) -> length v = length cell -> nonzero v -> 0 < quad U v)
+    by (intros T U v; exact (definite_apart T U v (length cell))).
+  assert (Low : forall w across p Y, length w = length cell -> Weighted.may_cross bits across 0 ->
+    match rows_apart values of r with Some srs => forallb (fun p => Weighted.are_related (fst p) (snd p)) (combine nss srs) &&
+      forallb (fun s => match Together.lower_grouped bits (map (Fixed.integer bits) w) across places p Y (map (at_row s) (as_rows srs)) (repeat [neg (add (at_vertex s mu') (at_vertex s subtracted))] (length cell)) with
+        Some t => Solve.is_definite bits (length cell) t | None => false end) (signs (length cell)) | None => false end = true ->
+    of_these x (map_rows formula_at r) (fun M => forall q v, entry_in bits mu q -> length v = length cell -> nonzero v -> (at_lambda lambda q + W) * dot v v < energy M v)).
+  { intros w across p Y lwd ok g. destruct (Over (fun s t i => match Together.lower_grouped bits (map (Fixed.integer bits) w) across places p Y i (repeat [neg (add (at_vertex s mu') t)] (length cell)) with
+      Some t => Solve.is_definite bits (length cell) t | None => false end) g) as [R G].
+    split; [exact R |]. intros q v hq lv nz. destruct (Mu q hq) as [q' [hq' at_q]]. pose proof (lower_energy p Y _ v (proj2 R)) as E.
+    specialize (G (fun l => - ((at_lambda l q' + (W - W0)) * dot v v)) (- dot v v) (lower_weights p Y v) v ltac:(intros l l1 l2 a b h3 s; cbv beta; rewrite (h3 q'); replace (W - W0) with ((a + b) * (W - W0)) at 1 by (rewrite s; ring); ring)). cbv beta in G.
+    assert (P : 0 < - ((at_lambda lambda q' + (W - W0)) * dot v v) + - dot v v * at_lambda lambda el + form (lower_weights p Y v) (map_rows (value x theta) (map_rows formula_at r)) v).
+    { apply G. intros s t T i real ls hh ht hr hch. destruct (Together.lower_grouped _ _ _ _ _ _ _ _) as [t' |] eqn:eu in hh; [| discriminate].
+      destruct (Together.lower_grouped_sound bits _ _ across places p Y z i real _ _ t' (W_in w) ok hz hr (diagonal_in bits _ _ (length cell) (neg_sound bits _ _ (add_sound bits _ _ _ _ (at_vertex_sound bits s _ _ hq') ht))) eu) as [U [hU qU]].
+      pose proof (D (Some t') U v hh ltac:(intros t1 e'; injection e' as <-; exact hU) lv nz) as P. specialize (qU v ltac:(rewrite map_length; congruence) nz). rewrite hch in qU. rewrite <- lv, quad_diagonal in qU. lra. }
+    rewrite at_q in P. pose proof (Rmult_le_pos _ _ (dot_self v) el0). replace (at_lambda lambda q + W0 + (W - W0)) with (at_lambda lambda q + W) in P by ring. lra. }
+  destruct upper as [c2 |], e as [| | p Y | p Y | p Y | p Y mu0 | | | | | | | | p Y | | p Y kappa | e0 ends0 directions0 | | | |]; try discriminate.
+  - destruct directions as [| w [|]]; try discriminate. pose proof (ld w (or_introl eq_refl)) as lwd. apply Nat.eqb_eq in lwd.
+    destruct (Over (fun s t i => match Together.upper_grouped bits (map (Fixed.integer bits) w) c2 places i (repeat [sub (mul bits c2 (at_vertex s mu')) t] (length cell)) with Some t => Solve.is_definite bits (length cell) t | None => false end) h) as [R G].
+    split; [exact R |]. cbv zeta. intros q v hq lv nz c hc. destruct (Mu q hq) as [q' [hq' at_q]]. destruct (upper_energy _ v (proj2 R)) as [y E].
+    specialize (G (fun l => c * (at_lambda l q' + (W - W0)) * dot v v) (- dot v v) (upper_weights y) v ltac:(intros l l1 l2 a b h3 s; cbv beta; rewrite (h3 q'); replace (W - W0) with ((a + b) * (W - W0)) at 1 by (rewrite s; ring); ring)). cbv beta in G.
+    assert (P : 0 < c * (at_lambda lambda q' + (W - W0)) * dot v v + - dot v v * at_lambda lambda el + form (upper_weights y) (map_rows (value x theta) (map_rows formula_at r)) v).
+    { apply G. intros s t T i real ls hh ht hr hch. destruct (Together.upper_grouped _ _ _ _ _ _) as [t' |] eqn:eu in hh; [| discriminate].
+      destruct (Together.upper_grouped_sound bits _ _ c2 c places z i real _ _ t' (W_in w) hc hz hr (diagonal_in bits _ _ (length cell) (sub_sound bits _ _ _ _ (mul_sound bits _ _ _ _ hc (at_vertex_sound bits s _ _ hq')) ht)) eu) as [U [hU qU]].
+      pose proof (D (Some t') U v hh ltac:(intros t1 e'; injection e' as <-; exact hU) lv nz) as P. specialize (qU v y ltac:(rewrite map_length; congruence) nz). rewrite hch in qU. rewrite <- lv, quad_diagonal in qU. lra. }
+    rewrite at_q in P. pose proof (Rmult_le_pos _ _ (dot_self v) el0). fold W. replace (at_lambda lambda q + W0 + (W - W0)) with (at_lambda lambda q + W) in P by ring. lra.
+  - destruct directions as [| w [| d [|]]]; try discriminate; pose proof (ld w (or_introl eq_refl)) as lwd; apply Nat.eqb_eq in lwd.
+    + exact (Low w None p Y lwd I h).
+    + refine (Low w _ p Y lwd _ h). unfold Weighted.may_cross. destruct (forallb _ d); [exact I |]. split; [reflexivity |]. exists (map (Y_value 4) d). clear. induction d as [| n d J]; cbn [map]; constructor; [| exact J].
+      replace (Y_value 4 n) with (Y_value 4 n * 1) by ring. apply Arithmetic.dyadic_sound, Fixed.integer_sound.
+Qed.
+(** With no multiples. *)
+Lemma no_multiples : forall r, Weighted.total_at 0 theta (unweighted r) = 0.
+Proof. unfold unweighted. induction r as [| row r IH]; cbn [map Weighted.total_at fold_right Weighted.multiple_at] in *; [reflexivity |]. unfold Weighted.total_at in IH. rewrite IH. ring. Qed.
 End Apart.
+
+Lemma together_holds : forall keep own cell x lambda r upper mu pl weights less e ends curved directions places all, length lambda = length cell -> Forall (fun t => -1 <= t <= 1) lambda ->
+  (forall k, Slope.holds bits lambda (nth k (coords_from 0 cell) (constant zero)) (nth k (map (centre_of bits) cell) 0) (nth k x 0)) -> harmless lambda less ->
+  shows_together (evaluate_kept keep cell) cell r own upper mu pl weights less e ends curved directions places all = true ->
+  of_these x (map_rows formula_at r) (fun M => forall q v, entry_in bits mu q -> length v = length cell -> nonzero v -> let k := at_lambda lambda q + Weighted.total_at pl theta weights in
+    match upper with None => k * dot v v < energy M v | Some c2 => forall c, contains c2 c -> energy M v < c * k * dot v v end).
+Proof.
+  intros keep own cell x lambda r upper mu pl weights less e ends curved directions places all el hlam C hl h. assert (k := h). unfold shows_together in k. cbv zeta in k. do 3 apply andb_true_iff in k as [k _]. apply andb_true_iff in k as [k1 k2].
+  exact (shows_together_sound cell x lambda el hlam C ends k1 k2 keep own curved r upper mu pl weights less e directions places all hl h).
+Qed.
 
 (** [allowed x]: in the workspace. *)
 Variable allowed : list R -> Prop.
@@ -1552,18 +1726,32 @@ Proof.
          [destruct q as [| q]; [| exact (Other k)]; exact (accuracy_holds keep cell x lambda el hlam hx Each less _ _ _ _ _ hl k) | exact (located_holds keep cell x lambda el hlam hx Each less _ _ _ _ _ hl k)]].
     intros th hth i. apply (nth_related _ _ _ _ (encloses bits lambda x (map (centre_of bits) cell) th)); [exact I |].
     exact (evaluate_kept_sound bits lambda hlam x (map (centre_of bits) cell) th _ _ C (params_hold bits lambda params th hth) keep tape). }
-  assert (Apart : forall less e ends curved directions, harmless lambda less -> shows_apart (evaluate_kept keep cell) cell less t e ends curved directions = true -> holds (length cell) x t).
-  { intros less e' ends curved directions hl k. assert (k' := k). unfold shows_apart in k'. cbv zeta in k'. apply andb_true_iff in k' as [k' _]. apply andb_true_iff in k' as [k' _].
-    apply andb_true_iff in k' as [k1 k2]. exact (shows_apart_sound cell x lambda el hlam C ends k1 k2 keep _ curved less t e' directions eq_refl hl k). }
+  assert (Apart : forall less e ends curved directions, harmless lambda less -> shows_within (evaluate_kept keep cell) cell less t e ends curved directions = true -> holds (length cell) x t).
+  { intros less e' ends curved directions hl k.
+    assert (Own : shows_apart (evaluate_kept keep cell) cell less t e' ends curved directions = true -> holds (length cell) x t).
+    { clear k. intro k. assert (k' := k). unfold shows_apart in k'. cbv zeta in k'. apply andb_true_iff in k' as [k' _]. apply andb_true_iff in k' as [k' _].
+      apply andb_true_iff in k' as [k1 k2]. exact (shows_apart_sound cell x lambda el hlam C ends k1 k2 keep _ curved less t e' directions eq_refl hl k). }
+    destruct e' as [| | | | | | | | | | | | | | | | | | | | e' places all]; try exact (Own k). clear Own. cbn [shows_within] in k. cbv zeta in k.
+    assert (Low : forall r a, shows_together (evaluate_kept keep cell) cell r (kept (wanted_by t e') tape) None (constant a) 0 (unweighted r) less e' ends curved directions places all = true ->
+      of_these x (map_rows formula_at r) (fun M => forall y v, contains a y -> length v = length cell -> nonzero v -> y * dot v v < energy M v)).
+    { intros r a g. destruct (together_holds keep _ cell x lambda r None _ _ _ less e' ends curved directions places all el hlam C hl g) as [R G]. split; [exact R |]. intros y v hy lv nz.
+      specialize (G (y, []) v (constant_in bits _ _ hy) lv nz). cbv zeta in G. rewrite at_constant, no_multiples, Rplus_0_r in G. exact G. }
+    destruct t as [low | high | c2 | f | r low | f g | p p' q q' distance | i k2 | r0 places0 Y0 | distance joints | near_ | row twice a b lever also]; try discriminate; destruct directions as [| w [|]]; try discriminate.
+    - apply andb_true_iff in k as [kd k]. cbn [holds]. split; [apply (are_defined_sound cell x lambda keep); [| exact kd]; intro i; apply (nth_related _ _ _ _ (encloses bits lambda x (map (centre_of bits) cell) theta)); [exact I | exact S] |].
+      exists (map_rows formula_at whole). split; [left; reflexivity | exact (Low _ _ k)].
+    - cbn [holds]. exists (map_rows formula_at whole). split; [left; reflexivity |].
+      destruct (together_holds keep _ cell x lambda whole _ _ _ _ less e' ends curved [w] places all el hlam C hl k) as [R G]. split; [exact R |]. intros y v hy lv nz.
+      specialize (G (y, []) v (constant_in bits _ _ hy) lv nz 1 (Fixed.integer_sound bits 1)). rewrite at_constant, no_multiples, Rplus_0_r, Rmult_1_l in G. exact G.
+    - exact (Low _ _ k). }
   assert (Tangent : forall tangent n places, inside cell = Some tangent -> (0 <=? n)%Z = true -> harmless lambda (Some (dyadic_slope n places tangent))).
   { intros tangent n places i n0. destruct (inside_sound _ _ _ _ i el ok hd) as [d [h1 h2]].
     destruct (dyadic_in bits n places _ _ h1) as [d' [g1 g2]]. exists d'. split; [exact g1 |]. rewrite g2.
     apply Z.leb_le, IZR_le in n0. pose proof (two_power places) as p.
     apply Rmult_le_pos; [| exact h2]. apply Rmult_le_pos; [exact n0 | apply Rlt_le, Rinv_0_lt_compat, p]. }
-  destruct e as [| | | | | | | | | e' n places | | | | | | | e' ends curved directions | | |]; try (apply (K None _ I h)).
+  destruct e as [| | | | | | | | | e' n places | | | | | | | e' ends curved directions | | | |]; try (apply (K None _ I h)).
   - cbn [shows_on] in h. destruct (inside cell) as [tangent |] eqn:i; [| discriminate h]. apply andb_true_iff in h as [n0 h].
     exact (K _ _ (Tangent tangent n places eq_refl n0) h).
-  - unfold shows_on in h. destruct e' as [| | | | | | | | | e' n places | | | | | | | e' ends' curved' directions' | | |]; try (exact (Apart None _ _ _ _ I h)).
+  - unfold shows_on in h. destruct e' as [| | | | | | | | | e' n places | | | | | | | e' ends' curved' directions' | | | |]; try (exact (Apart None _ _ _ _ I h)).
     destruct (inside cell) as [tangent |] eqn:i; [| discriminate h]. apply andb_true_iff in h as [n0 h].
     exact (Apart _ _ _ _ _ (Tangent tangent n places eq_refl n0) h).
 Qed.
@@ -1587,9 +1775,9 @@ Proof.
     exists less, harmless lambda less /\ f less = true).
   { intros k p f g. destruct (inside cell) as [tangent |] eqn:i; [| discriminate]. apply andb_true_iff in g as [n0 g]. exists (Some (dyadic_slope k p tangent)). split; [| exact g].
     destruct (inside_sound _ _ _ _ i el ok hd) as [d [h1 h2]]. exact (tangent_harmless lambda k p tangent d n0 h1 h2). }
-  unfold shows_along in h. destruct e as [| | | | | | | | | e k p | | | | | | | e ends curved directions | | |]; try (exact (One None _ _ _ _ I h)).
+  unfold shows_along in h. destruct e as [| | | | | | | | | e k p | | | | | | | e ends curved directions | | | |]; try (exact (One None _ _ _ _ I h)).
   - destruct (Tangent k p (fun less => shows_wedge (evaluate_kept keep cell) cell less t e [] [] (map (fun _ => 0%Z) cell) b c n places) h) as [less [hl g]]. exact (One less _ _ _ _ hl g).
-  - destruct e as [| | | | | | | | | e k p | | | | | | | | | |]; try (destruct directions as [| v [|]]; try discriminate; exact (One None _ _ _ _ I h)).
+  - destruct e as [| | | | | | | | | e k p | | | | | | | | | | |]; try (destruct directions as [| v [|]]; try discriminate; exact (One None _ _ _ _ I h)).
     destruct directions as [| v [|]]; try discriminate. destruct (Tangent k p (fun less => shows_wedge (evaluate_kept keep cell) cell less t e ends curved v b c n places) h) as [less [hl g]]. exact (One less _ _ _ _ hl g).
 Qed.
 
@@ -1600,17 +1788,22 @@ Lemma half_on_holds : forall keep cell x lambda upper mu q wedge e, entry_in bit
   half_on (evaluate_kept keep cell) cell upper mu wedge e = true -> half_holds (in_part wedge) (length cell) x upper (at_lambda lambda q).
 Proof.
   intros keep cell x lambda upper mu q wedge e hq el hlam ok hd C h.
-  assert (One : forall less e ends curved direction, harmless lambda less -> shows_half (evaluate_kept keep cell) cell upper mu wedge less e ends curved direction = true -> half_holds (in_part wedge) (length cell) x upper (at_lambda lambda q)).
-  { intros less e' ends curved direction hl k. assert (k' := k). unfold shows_half in k'. cbv zeta in k'. apply andb_true_iff in k' as [k' _]. apply andb_true_iff in k' as [k' _]. apply andb_true_iff in k' as [k1 k2].
-    exact (shows_half_sound cell x lambda el hlam C ends k1 k2 keep _ curved upper mu q wedge less e' direction eq_refl hq hl k). }
+  assert (One : forall less e ends curved direction, harmless lambda less -> half_within (evaluate_kept keep cell) cell upper mu wedge less e ends curved direction = true -> half_holds (in_part wedge) (length cell) x upper (at_lambda lambda q)).
+  { intros less e' ends curved direction hl k.
+    assert (Own : shows_half (evaluate_kept keep cell) cell upper mu wedge less e' ends curved direction = true -> half_holds (in_part wedge) (length cell) x upper (at_lambda lambda q)).
+    { clear k. intro k. assert (k' := k). unfold shows_half in k'. cbv zeta in k'. apply andb_true_iff in k' as [k' _]. apply andb_true_iff in k' as [k' _]. apply andb_true_iff in k' as [k1 k2].
+      exact (shows_half_sound cell x lambda el hlam C ends k1 k2 keep _ curved upper mu q wedge less e' direction eq_refl hq hl k). }
+    destruct e' as [| | | | | | | | | | | | | | | | | | | | e' places all]; try exact (Own k). cbn [half_within] in k. destruct wedge; [discriminate |].
+    destruct (together_holds keep _ cell x lambda whole upper mu _ _ less e' ends curved [direction] places all el hlam C hl k) as [R G]. split; [exact R |]. intros v lv nz _.
+    specialize (G q v hq lv nz). cbv zeta in G. rewrite no_multiples, Rplus_0_r in G. exact G. }
   assert (Tangent : forall k p f, match inside cell with Some tangent => (0 <=? k)%Z && f (Some (dyadic_slope k p tangent)) | None => false end = true ->
     exists less, harmless lambda less /\ f less = true).
   { intros k p f g. destruct (inside cell) as [tangent |] eqn:i; [| discriminate]. apply andb_true_iff in g as [n0 g]. exists (Some (dyadic_slope k p tangent)). split; [| exact g].
     destruct (inside_sound _ _ _ _ i el ok hd) as [d [h1 h2]]. exact (tangent_harmless lambda k p tangent d n0 h1 h2). }
-  unfold half_on in h. cbv zeta in h. destruct e as [| | | | | | | | | e k p | | | | | | | e ends curved directions | | |]; try (exact (One None _ _ _ _ I h)).
-  - destruct (Tangent k p (fun less => shows_half (evaluate_kept keep cell) cell upper mu wedge less e [] [] (map (fun _ => 0%Z) cell)) h) as [less [hl g]]. exact (One less _ _ _ _ hl g).
-  - destruct e as [| | | | | | | | | e k p | | | | | | | | | |]; try (destruct directions as [| v [|]]; try discriminate; exact (One None _ _ _ _ I h)).
-    destruct directions as [| v [|]]; try discriminate. destruct (Tangent k p (fun less => shows_half (evaluate_kept keep cell) cell upper mu wedge less e ends curved v) h) as [less [hl g]]. exact (One less _ _ _ _ hl g).
+  unfold half_on in h. cbv zeta in h. destruct e as [| | | | | | | | | e k p | | | | | | | e ends curved directions | | | |]; try (exact (One None _ _ _ _ I h)).
+  - destruct (Tangent k p (fun less => half_within (evaluate_kept keep cell) cell upper mu wedge less e [] [] (map (fun _ => 0%Z) cell)) h) as [less [hl g]]. exact (One less _ _ _ _ hl g).
+  - destruct e as [| | | | | | | | | e k p | | | | | | | | | | |]; try (destruct directions as [| v [|]]; try discriminate; exact (One None _ _ _ _ I h)).
+    destruct directions as [| v [|]]; try discriminate. destruct (Tangent k p (fun less => half_within (evaluate_kept keep cell) cell upper mu wedge less e ends curved v) h) as [less [hl g]]. exact (One less _ _ _ _ hl g).
 Qed.
 
 Lemma weighted_half_on_holds : forall keep cell x lambda upper mu q pl weights e, entry_in bits mu q -> length lambda = length cell -> Forall (fun t => -1 <= t <= 1) lambda -> allowed x ->
@@ -1619,19 +1812,25 @@ Lemma weighted_half_on_holds : forall keep cell x lambda upper mu q pl weights e
   weighted_half_on (evaluate_kept keep cell) cell upper mu pl weights e = true -> half_holds (fun _ => True) (length cell) x upper (at_lambda lambda q + Weighted.total_at pl theta weights).
 Proof.
   intros keep cell x lambda upper mu q pl weights e hq el hlam ok hd C h.
-  assert (One : forall less e ends curved directions, harmless lambda less -> weighted_half (evaluate_kept keep cell) cell upper mu pl weights less e ends curved directions = true ->
+  assert (One : forall less e ends curved directions, harmless lambda less -> weighted_within (evaluate_kept keep cell) cell upper mu pl weights less e ends curved directions = true ->
     half_holds (fun _ => True) (length cell) x upper (at_lambda lambda q + Weighted.total_at pl theta weights)).
-  { intros less e' ends curved directions hl k. assert (k' := k). unfold weighted_half in k'. cbv zeta in k'. apply andb_true_iff in k' as [k' _]. apply andb_true_iff in k' as [k' _]. apply andb_true_iff in k' as [k1 k2].
-    exact (weighted_half_sound cell x lambda el hlam C ends k1 k2 keep _ curved upper mu q pl weights less e' directions eq_refl hq hl k). }
+  { intros less e' ends curved directions hl k.
+    assert (Own : weighted_half (evaluate_kept keep cell) cell upper mu pl weights less e' ends curved directions = true -> half_holds (fun _ => True) (length cell) x upper (at_lambda lambda q + Weighted.total_at pl theta weights)).
+    { clear k. intro k. assert (k' := k). unfold weighted_half in k'. cbv zeta in k'. apply andb_true_iff in k' as [k' _]. apply andb_true_iff in k' as [k' _]. apply andb_true_iff in k' as [k1 k2].
+      exact (weighted_half_sound cell x lambda el hlam C ends k1 k2 keep _ curved upper mu q pl weights less e' directions eq_refl hq hl k). }
+    destruct e' as [| | | | | | | | | | | | | | | | | | | | e' places all]; try exact (Own k). cbn [weighted_within] in k.
+    assert (k' : shows_together (evaluate_kept keep cell) cell whole (kept (places_of_rows whole) tape) upper mu pl weights less e' ends curved directions places all = true)
+      by (destruct upper; destruct directions as [| w [| d [|]]]; try discriminate; exact k).
+    destruct (together_holds keep _ cell x lambda whole upper mu _ _ less e' ends curved directions places all el hlam C hl k') as [R G]. split; [exact R |]. intros v lv nz _. exact (G q v hq lv nz). }
   assert (Tangent : forall k p f, match inside cell with Some tangent => (0 <=? k)%Z && f (Some (dyadic_slope k p tangent)) | None => false end = true ->
     exists less, harmless lambda less /\ f less = true).
   { intros k p f g. destruct (inside cell) as [tangent |] eqn:i; [| discriminate]. apply andb_true_iff in g as [n0 g]. exists (Some (dyadic_slope k p tangent)). split; [| exact g].
     destruct (inside_sound _ _ _ _ i el ok hd) as [d [h1 h2]]. exact (tangent_harmless lambda k p tangent d n0 h1 h2). }
-  unfold weighted_half_on in h. cbv zeta in h. destruct e as [| | | | | | | | | e k p | | | | | | | e ends curved directions | | |]; try (exact (One None _ _ _ _ I h)).
-  - destruct (Tangent k p (fun less => weighted_half (evaluate_kept keep cell) cell upper mu pl weights less e [] [] match upper with None => [map (fun _ => 0%Z) cell; map (fun _ => 0%Z) cell] | Some _ => [map (fun _ => 0%Z) cell] end) h) as [less [hl g]].
+  unfold weighted_half_on in h. cbv zeta in h. destruct e as [| | | | | | | | | e k p | | | | | | | e ends curved directions | | | |]; try (exact (One None _ _ _ _ I h)).
+  - destruct (Tangent k p (fun less => weighted_within (evaluate_kept keep cell) cell upper mu pl weights less e [] [] match upper with None => [map (fun _ => 0%Z) cell; map (fun _ => 0%Z) cell] | Some _ => [map (fun _ => 0%Z) cell] end) h) as [less [hl g]].
     exact (One less _ _ _ _ hl g).
-  - destruct e as [| | | | | | | | | e k p | | | | | | | | | |]; try (exact (One None _ _ _ _ I h)).
-    destruct (Tangent k p (fun less => weighted_half (evaluate_kept keep cell) cell upper mu pl weights less e ends curved directions) h) as [less [hl g]]. exact (One less _ _ _ _ hl g).
+  - destruct e as [| | | | | | | | | e k p | | | | | | | | | | |]; try (exact (One None _ _ _ _ I h)).
+    destruct (Tangent k p (fun less => weighted_within (evaluate_kept keep cell) cell upper mu pl weights less e ends curved directions) h) as [less [hl g]]. exact (One less _ _ _ _ hl g).
 Qed.
 
 Lemma evaluate_holds : forall cell x t e, Forall2 contains cell x -> allowed x -> shows_on (evaluate cell) cell t e = true -> holds (length cell) x t.
@@ -1907,7 +2106,7 @@ Proof.
   { intros wedge e' g.
     assert (Own : half_on bits tape whole params inside (evaluate_kept keep cell) cell upper mu wedge e' = true -> half_holds bits tape whole theta (in_part wedge) (length cell) x upper (at_lambda lambda q))
       by exact (half_on_holds bits tape whole params inside theta theta_in allowed inside_sound keep cell x lambda upper mu q wedge e' hq el hlam ok hd C).
-    destruct e' as [| | | | | | | | | | | | | | | | | groups ones e' | |]; try exact (Own g). cbn [half_of] in g. apply andb_true_iff in g as [g1 g].
+    destruct e' as [| | | | | | | | | | | | | | | | | groups ones e' | | |]; try exact (Own g). cbn [half_of] in g. apply andb_true_iff in g as [g1 g].
     destruct (scaled_shows x (length cell) (Conditioning c2) groups ones g1) as [scaled [T [_ [_ H]]]]. apply (H c2 _ _ _ eq_refl).
     exact (half_on_holds bits tape whole _ inside scaled T allowed inside_sound _ cell x lambda upper mu q wedge e' hq el hlam ok hd C g). }
   destruct e; try exact (One None _ h). cbn [between_shows] in h. apply andb_true_iff in h as [h1 h]. apply negb_true_iff, Nat.eqb_neq in h1. rewrite forallb_forall in h.
@@ -1934,7 +2133,7 @@ Lemma weighted_of_holds : forall keep cell x lambda c2 upper mu q places weights
   half_holds bits tape whole th (fun _ => True) (length cell) x upper (at_lambda lambda q + Weighted.total_at places th weights).
 Proof.
   intros keep cell x lambda c2 upper mu q places weights e th hq el hlam ok hd C hth h. unfold of_evidence in hth.
-  destruct e as [| | | | | | | | | | | | | | | | | groups ones e | |]; cbn [groups_of_scale] in hth; cbn [weighted_of] in h;
+  destruct e as [| | | | | | | | | | | | | | | | | groups ones e | | |]; cbn [groups_of_scale] in hth; cbn [weighted_of] in h;
     try exact (weighted_half_on_holds bits tape whole params inside th hth allowed inside_sound keep cell x lambda upper mu q places weights _ hq el hlam ok hd C h).
   apply andb_true_iff in h as [_ h]. exact (weighted_half_on_holds bits tape whole _ inside th hth allowed inside_sound _ cell x lambda upper mu q places weights e hq el hlam ok hd C h).
 Qed.
@@ -1951,7 +2150,7 @@ Proof.
     assert (Own : groups_of_scale e = None -> exists th, Forall2 contains params th /\ Forall2 contains (of_evidence e) th /\
       forall ps, holds bits tape whole divided partial ps th m x (Conditioning c2) -> holds bits tape whole divided partial params theta m x (Conditioning c2)).
     { intro n. unfold of_evidence. rewrite n. exists theta. split; [exact theta_in |]. split; [exact theta_in | intros ps H; exact H]. }
-    destruct e as [| | | | | | | | | | | | | | | | | groups ones e | |]; try exact (Own eq_refl). cbn [weighted_of] in h. apply andb_true_iff in h as [h _]. apply andb_true_iff in h as [g _].
+    destruct e as [| | | | | | | | | | | | | | | | | groups ones e | | |]; try exact (Own eq_refl). cbn [weighted_of] in h. apply andb_true_iff in h as [h _]. apply andb_true_iff in h as [g _].
     destruct (scaled_shows x m (Conditioning c2) groups ones g) as [th [T [H _]]]. exists th. split; [exact (Scale.all_of_one_scale_within bits groups params theta th theta_in T) |]. split; [exact T | exact H]. }
   destruct (Scaled _ _ hl) as [th1 [T1 [L1 H1]]]. destruct (Scaled _ _ hu) as [th2 [T2 [L2 H2]]]. unfold are_alike in alike. unfold of_evidence in *.
   destruct (groups_of_scale lower) as [g |]; [| exists th2; repeat (split; [assumption |]); exact H2].
@@ -1965,7 +2164,7 @@ Proof.
   intros keep cell x t e hx ok h.
   assert (Other : shows_on bits tape whole divided partial params inside (evaluate_kept keep cell) cell t e = true -> holds bits tape whole divided partial params theta (length cell) x t)
     by exact (kept_holds bits tape whole divided partial params inside theta theta_in allowed inside_sound keep cell x t e hx ok).
-  destruct e as [| | | | | | | | | | | | | | | | | groups ones e | parts | places mu weights lower upper]; try exact (Other h); clear Other; cbn [shows_step] in h; [| | destruct t; try discriminate; destruct weights as [| row weights]; [| set (all := row :: weights) in *]]; apply andb_true_iff in h as [h1 h].
+  destruct e as [| | | | | | | | | | | | | | | | | groups ones e | parts | places mu weights lower upper |]; try exact (Other h); clear Other; cbn [shows_step] in h; [| | destruct t; try discriminate; destruct weights as [| row weights]; [| set (all := row :: weights) in *]]; apply andb_true_iff in h as [h1 h].
   - destruct (scaled_shows x (length cell) t groups ones h1) as [scaled [T [H _]]].
     exact (H _ (kept_holds bits tape whole divided partial _ inside scaled T allowed inside_sound _ cell x t e hx ok h)).
   - apply andb_true_iff in h1 as [h1 h2]. apply negb_true_iff, Nat.eqb_neq in h1. set (d := is_of_divided (ByFan parts)) in *. set (r := if d then divided else whole).
@@ -1976,7 +2175,7 @@ Proof.
       destruct (part_of_wedge parts p ip) as [[[[c0 n] places] e] iq]. specialize (h _ iq). cbn [fst snd shows_part] in h. fold r in h.
       assert (Own : forall e, shows_along bits tape r divided partial params inside (evaluate_kept keep cell) cell t (fst p) (snd p) n places e = true -> holds_along bits tape r partial theta (Toward.in_wedge (fst p) (snd p)) (length cell) x t)
         by (intros e' k; exact (along_holds bits tape r divided partial params inside theta theta_in allowed inside_sound keep cell x t (fst p) (snd p) n places e' hx ok k)).
-      destruct e as [| | | | | | | | | | | | | | | | | groups ones e | |]; try exact (Own _ h). apply andb_true_iff in h as [h3 h].
+      destruct e as [| | | | | | | | | | | | | | | | | groups ones e | | |]; try exact (Own _ h). apply andb_true_iff in h as [h3 h].
       destruct (scaled_shows x (length cell) t groups ones h3) as [scaled [T [_ [H _]]]].
       exact (H r _ er (along_holds bits tape r divided partial _ inside scaled T allowed inside_sound _ cell x t (fst p) (snd p) n places _ hx ok h)). }
     unfold r in F. destruct d; [exact (holds_of_divided (length cell) x t h2 F) | exact F].

@@ -202,10 +202,10 @@ Proof.
     by (intros e' h'; exact (shows_less_sound cell x None t e' it hx len ht (or_introl eq_refl) eq_refl (Rle_refl 0) h')).
   assert (Slopes : forall e, (match t with OnSlopes t => shows bits [] [] [] (evaluate_kept bits plain params keep cell) m None t e | _ => false end) = true -> test_holds x t).
   { intros e' k. destruct t; try discriminate. cbn [test_holds]. rewrite <- len in k |- *. exact (shows_holds bits plain [] [] [] params theta theta_in keep cell x _ e' hx k). }
-  destruct e as [| | | | | | | | | | | e | | | | | e0 es dirs | | |]; cbn [shows_at] in h; try discriminate; try exact (Slopes _ h).
+  destruct e as [| | | | | | | | | | | e | | | | | e0 es dirs | | | |]; cbn [shows_at] in h; try discriminate; try exact (Slopes _ h).
   2-3: destruct t as [r w k ends | | | | | | | | |]; try discriminate; apply andb_true_iff in h as [h v]; apply andb_true_iff in h as [h1 h2]; apply Nat.eqb_eq in h2; subst w;
     unfold same_rows in h1; destruct (list_eq_dec same_row r main) as [-> |]; [| discriminate]; exact (varied_holds cell x k ends _ it hx len ht v).
-  destruct e as [| | | | | | | | | | | | e k places | | | | | | |]; try exact (None_ _ h).
+  destruct e as [| | | | | | | | | | | | e k places | | | | | | | |]; try exact (None_ _ h).
   assert (G : exists i, g = Some i /\ (0 <=? k)%Z && (places <? 64)%N && shows_less cell (evaluate_kept bits plain params keep cell) (tensors_here cell) (Some (i, k, places)) t e = true)
     by (clear - h; destruct g as [i |]; [exists i; split; [reflexivity | exact h] | discriminate]).
   destruct G as [i [eg h']]. clear h. apply andb_true_iff in h' as [h s]. apply andb_true_iff in h as [k0 _]. apply Z.leb_le, IZR_le in k0.

@@ -567,7 +567,7 @@ Proof.
   { destruct by_; try exact (Part None _ h I). apply andb_true_iff in h as [n0 h]. rewrite forallb_forall in h.
     destruct (Toward.fan_covers (map (fun p => fst (fst (fst p))) parts) v) as [p [ip iw]]; [intro z; destruct parts; discriminate|].
     destruct (Check.part_of_wedge parts p ip) as [[[[c0 z] pl] e0] iq]. specialize (h _ iq). cbn [fst snd] in h. exact (Part _ _ h iw). }
-  clear h. intros part by' h iv. unfold along, shows_part in h. cbv zeta in h. clear along. destruct by' as [| | | | | | | | | | | | | | | | inner es curved dirs | | |]; try discriminate. destruct inner as [| | | | | | | | | | | inner | | | | | | | |]; try discriminate.
+  clear h. intros part by' h iv. unfold along, shows_part in h. cbv zeta in h. clear along. destruct by' as [| | | | | | | | | | | | | | | | inner es curved dirs | | | |]; try discriminate. destruct inner as [| | | | | | | | | | | inner | | | | | | | | |]; try discriminate.
   destruct curved; [| discriminate]. destruct dirs as [| dir [|]]; try discriminate. apply andb_true_iff in h as [h s]. apply andb_true_iff in h as [h _]. apply andb_true_iff in h as [h ex]. apply andb_true_iff in h as [sn on].
   unfold same_numbers in sn. destruct (list_eq_dec _ _ _) as [ef |]; [| discriminate]. rewrite <- ef in on, ex.
   assert (Aff := fit). unfold are_fit in Aff. apply andb_true_iff in Aff as [Aff _]. apply andb_true_iff in Aff as [Aff _]. apply andb_true_iff in Aff as [_ Aff].
@@ -581,9 +581,9 @@ Proof.
   { intros l places Y al hl q. rewrite <- Wv.
     apply (varied_form bits tape params tape (thinned_not_at_all tape) es m theta theta_in cell x x_in dimension on ex (map_multis placed_at placed_at own_multis) rs (placed_at (image m w)) l ends m places Y dir part k kappa v);
       [exact (own_stand es ef) | exact (Places l al) | exact (eased_placed l hl) | rewrite Wv; lra | exact q | exact hk | exact lv | exact nz | exact iv]. }
-  destruct inner as [| | places Y | | | | | | | | | | inner n pl | | | | | | |]; try discriminate.
+  destruct inner as [| | places Y | | | | | | | | | | inner n pl | | | | | | | |]; try discriminate.
   - exists places, Y, 0. split; [lra |]. exact (Go None places Y eq_refl I s).
-  - destruct inner as [| | places Y | | | | | | | | | | | | | | | | |]; try discriminate. destruct g as [f |] eqn:eg; [| discriminate]. cbn [option_map] in s. apply andb_true_iff in s as [n0 s]. apply Z.leb_le, IZR_le in n0.
+  - destruct inner as [| | places Y | | | | | | | | | | | | | | | | | |]; try discriminate. destruct g as [f |] eqn:eg; [| discriminate]. cbn [option_map] in s. apply andb_true_iff in s as [n0 s]. apply Z.leb_le, IZR_le in n0.
     exists places, Y, (less_at tape theta (parabola x) (Some (placed_at (image m f), n, pl))).
     assert (ef' : entry_at tape (placed_at (image m f)) = image m f) by (apply found_at; right; rewrite eg; left; reflexivity). split.
     + cbn [less_at]. rewrite ef', <- lx, image_value by (rewrite lx; exact bg). pose proof (two_power pl). apply Rmult_le_pos; [apply Rmult_le_pos; [exact n0 | apply Rlt_le, Rinv_0_lt_compat; assumption] | apply g0; [reflexivity | exact bg]].
