@@ -115,7 +115,9 @@ Inductive step :=
   | Apart_ (s : step) (ends : string) (directions : list (list Z))
   | Fan_ (cs : list (list Z * Z * N * step))
   (* [weights]: of each row, of each quantity with two ends by what mu is more; or none *)
-  | Between_ (mu : list Z) (places : N) (weights : list (list Z)) (lower upper : step).
+  | Between_ (mu : list Z) (places : N) (weights : list (list Z)) (lower upper : step)
+  (* [rows]: of each row the upper triangle of a matrix, or nothing *)
+  | Together_ (s : step) (rows : list (list Z)) (places : N).
 
 Inductive violation :=
   | Reach | Obligation (number : nat) (directions : list (list Z)) | Row (number leg : nat) | Dependent_
@@ -335,6 +337,7 @@ Fixpoint evidence_text (s : step) : text :=
   | Apart_ s ends vs => variant "tolerances" (array [evidence_text s; quoted ends; array (map integers_text vs)])
   | Fan_ cs => variant "fan" (array (map (fun p => let '(c, n, places, s) := p in array [integers_text c; integer_text n; places_text places; evidence_text s]) cs))
   | Between_ mu places weights lower upper => variant "between" (array [integers_text mu; places_text places; array (map integers_text weights); evidence_text lower; evidence_text upper])
+  | Together_ s rows places => variant "together" (array [evidence_text s; array (map integers_text rows); places_text places])
   end.
 Definition step_text (s : nat * step) : text := array [natural (fst s); evidence_text (snd s)].
 Definition violation_text (f : violation) : text :=
@@ -389,7 +392,7 @@ Definition is_plain (s : string) : bool :=
 Fixpoint is_plain_step (s : step) : bool :=
   match s with
   | Plain name | Multiplied name _ _ => is_plain name
-  | Inside_ s _ _ | Turned_ s _ _ | AtControls_ s => is_plain_step s
+  | Inside_ s _ _ | Turned_ s _ _ | AtControls_ s | Together_ s _ _ => is_plain_step s
   | Apart_ s ends _ => is_plain ends && is_plain_step s
   | Fan_ cs => forallb (fun p => is_plain_step (snd p)) cs
   | Between_ _ _ _ lower upper => is_plain_step lower && is_plain_step upper
@@ -1063,6 +1066,7 @@ Fixpoint evidence_of (s : step) : option evidence :=
       | Some weights, Some e, Some f => Some (ByBetween places mu weights e f)
       | _, _, _ => None
       end
+  | Together_ s rows places => option_map (fun e => ByTogether e places rows) (evidence_of s)
   end.
 Fixpoint steps_of (l : list (nat * step)) : option (list (nat * evidence)) :=
   match l with

@@ -404,6 +404,7 @@ let rec evidence shape v =
     if List.exists fst parts && not (List.for_all fst parts) then not_covered [ "evidence \"fan\" about \"divided\" and other rows" ];
     Fan_ (List.map snd parts)
   | Object [ ("between", Array [ mu; p; weights; e; f ]) ] -> Between_ (row (m + 1) mu, places p, List.map integers (array weights), evidence shape e, evidence shape f)
+  | Object [ ("together", Array [ e; rows; p ]) ] -> Together_ (evidence shape e, List.map integers (array rows), places p)
   | Object [ (name, _) ] -> not_covered [ "the evidence \""; name; "\"" ]
   | _ -> raise Malformed
 and at_controls shape v =
