@@ -140,6 +140,8 @@ Check kernel.Second.second_symmetric.
 Check kernel.Check.shows_apart_sound.
 Check kernel.Weighted.less_all_sound.
 Check kernel.Check.weighted_half_sound.
+Check kernel.Together.together.
+Check kernel.Check.shows_together_sound.
 Check kernel.Certificate.accept_cells_sound.
 Check FiveBar.certified.
 Check PlanarPlatform.certified.
@@ -187,6 +189,7 @@ Definition all_of_them :=
    @kernel.Pose.check_turning_sound, @Claim.every_value, @kernel.Tolerances.mean_value,
    @kernel.Tolerances.less_changes_sound, @kernel.Second.second_mean_value, @kernel.Second.second_symmetric,
    @kernel.Check.shows_apart_sound, @kernel.Weighted.less_all_sound, @kernel.Check.weighted_half_sound,
+   @kernel.Together.together, @kernel.Check.shows_together_sound,
    @kernel.Certificate.accept_cells_sound, @FiveBar.certified, @PlanarPlatform.certified,
    @FiveBarFormulas.certified, @Prototype.certified, @DeltaTooFast.refuted, @NoCube.certified,
    @Atlas.certified, @kernel.Certificate.verify_sound, @kernel.PavingText.verify_paving_sound).
