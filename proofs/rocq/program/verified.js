@@ -3,100 +3,100 @@
 globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurable:true,get:b}),_T_));function
 b(){var
 b=this||self;b.globalThis=b;delete
-a.prototype._T_}}(Object));(function(Y){"use strict";var
-lM="spatial",tI="Invalid_argument",iR="precision",aZ='"',lL=1255,iZ="inside",sG="(",sH=0x800,tH="yaw",sD="range",sE="tree",sF="jsError",cG=0x8000,tG="sqrt(",sC=256,iQ="obligation",tF="load",gL="offset",bF="machine",sB="End_of_file",fs="strut",lK="center",gK="arm",lJ="Failure",tE="serial_margin",iY="parameters",c8=0xff,tD="bodies",tC="max_angle",lX="outside",gJ="base_axis",lI="ENOENT",tB="singular",tA=122,sA="([^/]+)",tz="0",lH=0xf,gI=128,sz=0xdc00,tx="Sys_blocked_io",ty="fd ",gA="given",sy="ENOTEMPTY",bd=248,iP="bound",sx="Division_by_zero",tv="by",tw=1027,sw="Sys_error",gH="slider",sv="torsion",tu="postulate",su="proof",lW="joint_error",gG="refuted",fl="mechanism",iO="row",st="EEXIST",tt="roll_pitch_yaw",gF="y",ss="cube",dL="lower",ts="within",sr="clearance",tr="turned",sq="control",iN="int_of_string",sp="between",tp="definitions",tq="dependent",gE=1024,sn="from",so="name",to=" : flags Open_rdonly and Open_wronly are not compatible",sm="orthocert/2",tn="reach",sl=512,tl="base_joint",tm="witness",fr="-",bv="platform",sk=0x7ff0,sj="pitch",lV=": Not a directory",bY="min",tj="trim",fq="workspace",tk=" : file already exists",iM="split",lU="legs",ti="claim",lG="joint",eu=0xffffff,si="platform_joint",sh="formulas",sg="roll",iL="atlas",tf="greatest",tg="nodes",th="Out_of_memory",sf="psi_max",iX="orientation",iK=254,te="angle",lT="index out of bounds",se="end",td="one_to_one",iW="_bigarr02",sd=" : flags Open_text and Open_binary are not compatible",tc="inverse",bE="drive",sc="coordinates",tb="holds",iJ="lower_divided",sb="speed",s$="cylinder",ta="joints",c7=0xffff,s7="a leaf that fails",s8="acceleration",s9="force",gC="certified",gD="chords",s_=12520,lF="on",s6="same",fk="accuracy",gB="axis",s5="no_cube",s4="parallel_margin",sa='the drive "',lE="Unix.Unix_error",iV="fails",iI="tool",lD="mkdir",s2="rho",s3="least",iU=1000,lC="translational",iT="tolerances",r$="Stack_overflow",lS="characteristic_length",ai="",lR="^",iG="places",iH=": No such file or directory",r_="/static/",fp=0x3f,r8="stiffness",r9="Not_found",cF="planar",gz="mode",s1="joint_speed",s0="Match_failure",r7="transmission",bX="anchor",sZ="at",r6="joint_force",fo="leg",r5="joint_acceleration",iS="+",lB="rmdir",sY=0xf0,sX="spherical",r4=1026,sV="REJECTED",sW="undecided",b0="max",bZ="direction",r2="leg_angle",r3="orthoglide",fn="rank",sT="constraint_margin",sU="fan",rZ="the acceleration of a joint of a machine with a plane",gy="test",r0="Pervasives.do_at_exit",r1="utf8",ci=0x80,fm="conditioning",fj="length",rY="Undefined_recursive_module",lQ=")",rX="base",sS="quantity",rW="joint_range",iF="tilt",lP="divided",rV="Q2",sR="reference",rU="point",sP="corner",sQ=0xe0,rT="version",lO="z",sN="to",sO=0xdfff,lA="compare: functional value",sM="Assert_failure",ck="/",sL="provenance",et="radius",iE="side",sJ=-14,cj="require",sK="format",rS="Q1",lN="ENOTDIR",rR="all",es="box",sI=250;function
-l_(c,b,a){var
+a.prototype._T_}}(Object));(function($){"use strict";var
+lT="spatial",tY="Invalid_argument",iX="precision",a0='"',lS=1255,i5="inside",sV="(",sW=0x800,tX="yaw",sS="range",sT="tree",sU="jsError",cH=0x8000,tW="sqrt(",sR=256,iW="obligation",tV="load",gR="offset",bH="machine",sQ="End_of_file",fw="strut",lR="center",gQ="arm",lQ="Failure",tU="serial_margin",i4="parameters",df=0xff,tT="bodies",tS="max_angle",l4="outside",gP="base_axis",lP="ENOENT",tR="singular",tQ=122,sP="([^/]+)",tP="0",lO=0xf,gO=128,sO=0xdc00,tN="Sys_blocked_io",tO="fd ",gG="given",sN="ENOTEMPTY",bd=248,iV="bound",sM="Division_by_zero",tL="by",tM=1027,sL="Sys_error",tK="together",gN="slider",sK="torsion",tJ="postulate",sJ="proof",l3="joint_error",gM="refuted",fp="mechanism",iU="row",sI="EEXIST",tI="roll_pitch_yaw",gL="y",sH="cube",dM="lower",tH="within",sG="clearance",tG="turned",sF="control",iT="int_of_string",sE="between",tE="definitions",tF="dependent",gK=1024,sC="from",sD="name",tD=" : flags Open_rdonly and Open_wronly are not compatible",sB="orthocert/2",tC="reach",sA=512,tA="base_joint",tB="witness",fv="-",bx="platform",sz=0x7ff0,sy="pitch",l2=": Not a directory",b1="min",ty="trim",fu="workspace",tz=" : file already exists",iS="split",l1="legs",tx="claim",lN="joint",ez=0xffffff,sx="platform_joint",sw="formulas",sv="roll",iR="atlas",tu="greatest",tv="nodes",tw="Out_of_memory",su="psi_max",i3="orientation",iQ=254,tt="angle",l0="index out of bounds",st="end",ts="one_to_one",i2="_bigarr02",ss=" : flags Open_text and Open_binary are not compatible",tr="inverse",bG="drive",sr="coordinates",tq="holds",iP="lower_divided",sq="speed",to="cylinder",tp="joints",de=0xffff,tk="a leaf that fails",tl="acceleration",tm="force",gI="certified",gJ="chords",tn=12520,lM="on",tj="same",fo="accuracy",gH="axis",ti="no_cube",th="parallel_margin",sp='the drive "',lL="Unix.Unix_error",i1="fails",iO="tool",lK="mkdir",tf="rho",tg="least",i0=1000,lJ="translational",iZ="tolerances",so="Stack_overflow",lZ="characteristic_length",ai="",lY="^",iM="places",iN=": No such file or directory",sn="/static/",ft=0x3f,sl="stiffness",sm="Not_found",cG="planar",gF="mode",te="joint_speed",td="Match_failure",sk="transmission",b0="anchor",tc="at",sj="joint_force",fs="leg",si="joint_acceleration",iY="+",lI="rmdir",tb=0xf0,ta="spherical",sh=1026,s_="REJECTED",s$="undecided",b3="max",b2="direction",sf="leg_angle",sg="orthoglide",fr="rank",s8="constraint_margin",s9="fan",sc="the acceleration of a joint of a machine with a plane",gE="test",sd="Pervasives.do_at_exit",se="utf8",cl=0x80,fq="conditioning",fn="length",sb="Undefined_recursive_module",lX=")",sa="base",s7="quantity",r$="joint_range",iL="tilt",lW="divided",r_="Q2",s6="reference",r9="point",s4="corner",s5=0xe0,r8="version",lV="z",s2="to",s3=0xdfff,lH="compare: functional value",s1="Assert_failure",cn="/",s0="provenance",ey="radius",iK="side",sY=-14,cm="require",sZ="format",r7="Q1",lU="ENOTDIR",r6="all",ex="box",sX=250;function
+mf(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=ai;for(;0<a;b+=gE,a-=gE)e+=d.apply(null,c.slice(b,b+Math.min(a,gE)));return e}function
-i1(b){if(Y.Uint8Array)var
-c=new(Y.Uint8Array)(b.l);else
+e=ai;for(;0<a;b+=gK,a-=gK)e+=d.apply(null,c.slice(b,b+Math.min(a,gK)));return e}function
+i7(b){if($.Uint8Array)var
+c=new($.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-gM(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?l_(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?l_(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)i1(b);var
+gS(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?mf(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?mf(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)i7(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-fv(a){return a}function
-fu(a,b,c,d,e){gM(fv(a),b,c,d,e);return 0}function
-lZ(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+fz(a){return a}function
+fy(a,b,c,d,e){gS(fz(a),b,c,d,e);return 0}function
+l6(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-c9(c,a){if(c.fun)return c9(c.fun,a);if(typeof
+dg(c,a){if(c.fun)return dg(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return c9(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return dg(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return c9(c,d)}}function
-t9(b,a){if(b==0)return ai;if(a.repeat)return a.repeat(b);var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return dg(c,d)}}function
+un(b,a){if(b==0)return ai;if(a.repeat)return a.repeat(b);var
 d=ai,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-fw(a){if(a.t==2)a.c+=t9(a.l-a.c.length,"\0");else
-a.c=l_(a.c,0,a.c.length);a.t=0}function
-fx(a){a.t&6&&fw(a);return a.c}var
-LU=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-LT(a){if(LU)return Math.floor(Math.log2(a));var
+fA(a){if(a.t==2)a.c+=un(a.l-a.c.length,"\0");else
+a.c=mf(a.c,0,a.c.length);a.t=0}function
+fB(a){a.t&6&&fA(a);return a.c}var
+Mg=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+Mf(a){if(Mg)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-l2(c){var
-a=new(Y.Float32Array)(1);a[0]=c;var
-b=new(Y.Int32Array)(a.buffer);return b[0]|0}var
-t1=Math.pow(2,-24);function
-LK(a){throw a}var
-aN=[0];function
-t6(){LK(aN.Division_by_zero)}function
-W(b,c,a){this.lo=b&eu;this.mi=c&eu;this.hi=a&c7}W.prototype.caml_custom="_j";W.prototype.copy=function(){return new
-W(this.lo,this.mi,this.hi)};W.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};W.prototype.compare=function(a){var
-b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};W.prototype.neg=function(){var
+l9(c){var
+a=new($.Float32Array)(1);a[0]=c;var
+b=new($.Int32Array)(a.buffer);return b[0]|0}var
+uf=Math.pow(2,-24);function
+L8(a){throw a}var
+aO=[0];function
+uk(){L8(aO.Division_by_zero)}function
+Y(b,c,a){this.lo=b&ez;this.mi=c&ez;this.hi=a&de}Y.prototype.caml_custom="_j";Y.prototype.copy=function(){return new
+Y(this.lo,this.mi,this.hi)};Y.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};Y.prototype.compare=function(a){var
+b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};Y.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
-W(a,b,c)};W.prototype.add=function(a){var
+Y(a,b,c)};Y.prototype.add=function(a){var
 b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
-W(b,c,d)};W.prototype.sub=function(a){var
+Y(b,c,d)};Y.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
-W(b,c,d)};W.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*t1|0)+this.mi*a.lo+this.lo*a.mi,d=(c*t1|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
-W(b,c,d)};W.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};W.prototype.isNeg=function(){return this.hi<<16<0};W.prototype.and=function(a){return new
-W(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};W.prototype.or=function(a){return new
-W(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};W.prototype.xor=function(a){return new
-W(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};W.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-W(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
-W(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
-W(0,0,this.lo<<a-48)};W.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-W(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
-W(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
-W(this.hi>>a-48,0,0)};W.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
+Y(b,c,d)};Y.prototype.mul=function(a){var
+b=this.lo*a.lo,c=(b*uf|0)+this.mi*a.lo+this.lo*a.mi,d=(c*uf|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+Y(b,c,d)};Y.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};Y.prototype.isNeg=function(){return this.hi<<16<0};Y.prototype.and=function(a){return new
+Y(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};Y.prototype.or=function(a){return new
+Y(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};Y.prototype.xor=function(a){return new
+Y(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};Y.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+Y(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
+Y(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
+Y(0,0,this.lo<<a-48)};Y.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+Y(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
+Y(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
+Y(this.hi>>a-48,0,0)};Y.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
 c=this.hi<<16>>16;if(a<24)return new
-W(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
+Y(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-W(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&c7);return new
-W(this.hi<<16>>a-32,b,b)};W.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&eu;this.lo=this.lo<<1&eu};W.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&eu;this.mi=(this.mi>>>1|this.hi<<23)&eu;this.hi=this.hi>>>1};W.prototype.udivmod=function(e){var
+Y(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&de);return new
+Y(this.hi<<16>>a-32,b,b)};Y.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&ez;this.lo=this.lo<<1&ez};Y.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&ez;this.mi=(this.mi>>>1|this.hi<<23)&ez;this.hi=this.hi>>>1};Y.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
-W(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};W.prototype.div=function(a){var
-b=this;if(a.isZero())t6();var
-d=b.hi^a.hi;if(b.hi&cG)b=b.neg();if(a.hi&cG)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&cG)c=c.neg();return c};W.prototype.mod=function(b){var
-a=this;if(b.isZero())t6();var
-d=a.hi;if(a.hi&cG)a=a.neg();if(b.hi&cG)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&cG)c=c.neg();return c};W.prototype.toInt=function(){return this.lo|this.mi<<24};W.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};W.prototype.toArray=function(){return[this.hi>>8,this.hi&c8,this.mi>>16,this.mi>>8&c8,this.mi&c8,this.lo>>16,this.lo>>8&c8,this.lo&c8]};W.prototype.lo32=function(){return this.lo|(this.mi&c8)<<24};W.prototype.hi32=function(){return this.mi>>>8&c7|this.hi<<16};function
-i3(b,c,a){return new
-W(b,c,a)}function
-i2(a){if(!isFinite(a)){if(isNaN(a))return i3(1,0,sk);return a>0?i3(0,0,sk):i3(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?cG:a>=0?0:cG;if(f)a=-a;var
-b=LT(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-r4)}else{a/=Math.pow(2,b-tw);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+Y(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};Y.prototype.div=function(a){var
+b=this;if(a.isZero())uk();var
+d=b.hi^a.hi;if(b.hi&cH)b=b.neg();if(a.hi&cH)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&cH)c=c.neg();return c};Y.prototype.mod=function(b){var
+a=this;if(b.isZero())uk();var
+d=a.hi;if(a.hi&cH)a=a.neg();if(b.hi&cH)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&cH)c=c.neg();return c};Y.prototype.toInt=function(){return this.lo|this.mi<<24};Y.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};Y.prototype.toArray=function(){return[this.hi>>8,this.hi&df,this.mi>>16,this.mi>>8&df,this.mi&df,this.lo>>16,this.lo>>8&df,this.lo&df]};Y.prototype.lo32=function(){return this.lo|(this.mi&df)<<24};Y.prototype.hi32=function(){return this.mi>>>8&de|this.hi<<16};function
+i9(b,c,a){return new
+Y(b,c,a)}function
+i8(a){if(!isFinite(a)){if(isNaN(a))return i9(1,0,sz);return a>0?i9(0,0,sz):i9(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?cH:a>=0?0:cH;if(f)a=-a;var
+b=Mf(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-sh)}else{a/=Math.pow(2,b-tM);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&lH|f|b<<4;return i3(g,e,c)}function
-gP(a){return a.toArray()}function
-tP(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==iW)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<c7)c.write(16,b.dims[a]);else{c.write(16,c7);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&lO|f|b<<4;return i9(g,e,c)}function
+gV(a){return a.toArray()}function
+t5(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==i2)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<de)c.write(16,b.dims[a]);else{c.write(16,de);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -113,52 +113,52 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=gP(b.get(a));for(var
+e=gV(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=gP(i2(b.get(a)));for(var
+e=gV(i8(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=l2(b.get(a));c.write(32,e)}break;case
+e=l9(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,l2(d[1]));c.write(32,l2(d[2]))}break;case
+d=b.get(a);c.write(32,l9(d[1]));c.write(32,l9(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=gP(i2(f[1]));for(var
+f=b.get(a),e=gV(i8(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=gP(i2(f[2]));for(var
+e=gV(i8(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-LM(b,a){throw[0,b,a]}function
-uc(a){if(a.length<24){for(var
+L_(b,a){throw[0,b,a]}function
+us(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-l$(e){for(var
-j=ai,c=ai,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<ci){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<ci;d++);if(d-b>sl){c.substr(0,1);j+=c;c=ai;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==gI){g=h+(f<<6);if(f<sQ){a=g-0x3080;if(a<ci)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==gI){g=h+(g<<6);if(f<sY){a=g-0xe2080;if(a<sH||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==gI&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>c7)c+=String.fromCharCode(0xd7c0+(a>>10),sz+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>gE){c.substr(0,1);j+=c;c=ai}}return j+c}function
-cH(c,a,b){this.t=c;this.c=a;this.l=b}cH.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:fw(this);case
-0:if(uc(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};cH.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return l$(a)};cH.prototype.slice=function(){var
+mg(e){for(var
+j=ai,c=ai,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<cl){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<cl;d++);if(d-b>sA){c.substr(0,1);j+=c;c=ai;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==gO){g=h+(f<<6);if(f<s5){a=g-0x3080;if(a<cl)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==gO){g=h+(g<<6);if(f<tb){a=g-0xe2080;if(a<sW||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==gO&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>de)c+=String.fromCharCode(0xd7c0+(a>>10),sO+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>gK){c.substr(0,1);j+=c;c=ai}}return j+c}function
+cI(c,a,b){this.t=c;this.c=a;this.l=b}cI.prototype.toString=function(){switch(this.t){case
+9:return this.c;default:fA(this);case
+0:if(us(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};cI.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return mg(a)};cI.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-cH(this.t,a,this.l)};function
-tS(a){return new
-cH(0,a,a.length)}function
-a(a){return tS(a)}function
-l9(c,b){LM(c,a(b))}function
-a7(a){l9(aN.Invalid_argument,a)}function
-tN(a){switch(a){case
+cI(this.t,a,this.l)};function
+t8(a){return new
+cI(0,a,a.length)}function
+b(a){return t8(a)}function
+me(c,a){L_(c,b(a))}function
+a9(a){me(aO.Invalid_argument,a)}function
+t3(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-Le(c,e){var
-b=Y,a;switch(c){case
+LC(c,e){var
+b=$,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
 2:a=b.Int8Array;break;case
@@ -171,52 +171,52 @@ b=Y,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)a7("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)a9("Bigarray.create: unsupported kind");var
 d=new
-a(e*tN(c));return d}function
-l3(c){var
-a=new(Y.Int32Array)(1);a[0]=c;var
-b=new(Y.Float32Array)(a.buffer);return b[0]}function
-gO(a){return new
-W(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-l4(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&lH)==0?b&cG?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&lH);if(c>0){a+=16;a*=Math.pow(2,c-tw)}else
-a*=Math.pow(2,-r4);if(b&cG)a=-a;return a}function
-lY(b){var
+a(e*t3(c));return d}function
+l_(c){var
+a=new($.Int32Array)(1);a[0]=c;var
+b=new($.Float32Array)(a.buffer);return b[0]}function
+gU(a){return new
+Y(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
+l$(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&lO)==0?b&cH?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&lO);if(c>0){a+=16;a*=Math.pow(2,c-tM)}else
+a*=Math.pow(2,-sh);if(b&cH)a=-a;return a}function
+l5(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)a7("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-Lu(b,a){return new
-W(b&eu,b>>>24&c8|(a&c7)<<8,a>>>16&c7)}function
-l5(a){return a.hi32()}function
-l6(a){return a.lo32()}function
-i0(){a7(lT)}var
-Lf=iW;function
-dM(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dM.prototype.caml_custom=Lf;dM.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)a9("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+LS(b,a){return new
+Y(b&ez,b>>>24&df|(a&de)<<8,a>>>16&de)}function
+ma(a){return a.hi32()}function
+mb(a){return a.lo32()}function
+i6(){a9(l0)}var
+LD=i2;function
+dN(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dN.prototype.caml_custom=LD;dN.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))a7("bigarray.js: invalid offset");if(this.dims.length!=b.length)a7("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])i0();c=c*this.dims[a]+b[a]}else
+Array))a9("bigarray.js: invalid offset");if(this.dims.length!=b.length)a9("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])i6();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])i0();c=c*this.dims[a]+(b[a]-1)}return c};dM.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])i6();c=c*this.dims[a]+(b[a]-1)}return c};dN.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return Lu(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return LS(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[iK,e,c];default:return this.data[a]}};dM.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=l6(b);this.data[a*2+1]=l5(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[iQ,e,c];default:return this.data[a]}};dN.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=mb(b);this.data[a*2+1]=ma(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};dM.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};dN.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=l6(b),e=l5(b);if(c==e)this.data.fill(c);else
+c=mb(b),e=ma(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};dM.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};dN.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -236,26 +236,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-ft(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}ft.prototype=new
-dM();ft.prototype.offset=function(a){if(typeof
+fx(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}fx.prototype=new
+dN();fx.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-a7("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])i0();return a};ft.prototype.get=function(a){return this.data[a]};ft.prototype.set=function(a,b){this.data[a]=b;return 0};ft.prototype.fill=function(a){this.data.fill(a);return 0};function
-tL(c,d,a,b){var
-e=tN(c);if(lY(a)*e!=b.length)a7("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-ft(c,d,a,b);return new
-dM(c,d,a,b)}function
-cl(b){if(!aN.Failure)aN.Failure=[bd,a(lJ),-3];l9(aN.Failure,b)}function
-tM(b,v,r){var
-i=b.read32s();if(i<0||i>16)cl("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&c8,o=p>>8&1,h=[];if(r==iW)for(var
+a9("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])i6();return a};fx.prototype.get=function(a){return this.data[a]};fx.prototype.set=function(a,b){this.data[a]=b;return 0};fx.prototype.fill=function(a){this.data.fill(a);return 0};function
+t1(c,d,a,b){var
+e=t3(c);if(l5(a)*e!=b.length)a9("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+fx(c,d,a,b);return new
+dN(c,d,a,b)}function
+co(a){if(!aO.Failure)aO.Failure=[bd,b(lQ),-3];me(aO.Failure,a)}function
+t2(b,v,r){var
+i=b.read32s();if(i<0||i>16)co("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&df,o=p>>8&1,h=[];if(r==i2)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==c7){var
-t=b.read32u(),u=b.read32u();if(t!=0)cl("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+n=b.read16u();if(n==de){var
+t=b.read32u(),u=b.read32u();if(t!=0)co("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=lY(h),f=Le(j,d),g=tL(j,o,h,f);switch(j){case
+d=l5(h),f=LC(j,d),g=t1(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -269,129 +269,129 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)cl("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)co("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=gO(e);g.set(a,q)}break;case
+q=gU(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=l4(gO(e));g.set(a,k)}break;case
+k=l$(gU(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=l3(b.read32s());g.set(a,k)}break;case
+k=l_(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=l3(b.read32s()),l=l3(b.read32s());g.set(a,[iK,m,l])}break;case
+m=l_(b.read32s()),l=l_(b.read32s());g.set(a,[iQ,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=l4(gO(e));for(var
+m=l$(gU(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=l4(gO(e));g.set(a,[iK,m,l])}break}v[0]=(4+i)*4;return tL(j,o,h,f)}function
-tK(a,b,c){return a.compare(b,c)}function
-l8(a,b){return Math.imul(a,b)}function
-c_(b,a){a=l8(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=l8(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-Lr(a,b){a=c_(a,l6(b));a=c_(a,l5(b));return a}function
-t0(a,b){return Lr(a,i2(b))}function
-tO(c){var
-b=lY(c.dims),d=0;switch(c.kind){case
+l=l$(gU(e));g.set(a,[iQ,m,l])}break}v[0]=(4+i)*4;return t1(j,o,h,f)}function
+t0(a,b,c){return a.compare(b,c)}function
+md(a,b){return Math.imul(a,b)}function
+dh(b,a){a=md(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=md(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+LP(a,b){a=dh(a,mb(b));a=dh(a,ma(b));return a}function
+ue(a,b){return LP(a,i8(b))}function
+t4(c){var
+b=l5(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>sC)b=sC;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=c_(d,e)}e=0;switch(b&3){case
+12:if(b>sR)b=sR;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=dh(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=c_(d,e)}break;case
+1:e|=c.data[a+0];d=dh(d,e)}break;case
 4:case
-5:if(b>gI)b=gI;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=c_(d,e)}if((b&1)!=0)d=c_(d,c.data[a]);break;case
+5:if(b>gO)b=gO;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=dh(d,e)}if((b&1)!=0)d=dh(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=c_(d,c.data[a]);break;case
+a=0;a<b;a++)d=dh(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=c_(d,c.data[a]);break;case
+a=0;a<b;a++)d=dh(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=c_(d,c.data[a]);break;case
+a=0;a<b;a++)d=dh(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=t0(d,c.data[a]);break;case
+a=0;a<b;a++)d=ue(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=t0(d,c.data[a]);break}return d}function
-Ls(a,b){b[0]=4;return a.read32s()}function
-LH(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=ue(d,c.data[a]);break}return d}function
+LQ(a,b){b[0]=4;return a.read32s()}function
+L5(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:cl("input_value: native integer value too large");default:cl("input_value: ill-formed native integer")}}function
-Lx(c,d){var
+2:co("input_value: native integer value too large");default:co("input_value: ill-formed native integer")}}function
+LV(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return gO(b)}function
-Lw(e,d,b){var
-c=gP(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return gU(b)}function
+LU(e,d,b){var
+c=gV(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-Lt(a,b,c){return a.compare(b)}function
-Lv(a){return a.lo32()^a.hi32()}var
-tV={"_j":{deserialize:Lx,serialize:Lw,fixed_length:8,compare:Lt,hash:Lv},"_i":{deserialize:Ls,fixed_length:4},"_n":{deserialize:LH,fixed_length:4},"_bigarray":{deserialize:function(a,b){return tM(a,b,"_bigarray")},serialize:tP,compare:tK,hash:tO},"_bigarr02":{deserialize:function(a,b){return tM(a,b,iW)},serialize:tP,compare:tK,hash:tO}};function
-l1(a){return tV[a.caml_custom]&&tV[a.caml_custom].compare}function
-tT(f,c,d,e){var
-b=l1(c);if(b){var
+LR(a,b,c){return a.compare(b)}function
+LT(a){return a.lo32()^a.hi32()}var
+t$={"_j":{deserialize:LV,serialize:LU,fixed_length:8,compare:LR,hash:LT},"_i":{deserialize:LQ,fixed_length:4},"_n":{deserialize:L5,fixed_length:4},"_bigarray":{deserialize:function(a,b){return t2(a,b,"_bigarray")},serialize:t5,compare:t0,hash:t4},"_bigarr02":{deserialize:function(a,b){return t2(a,b,i2)},serialize:t5,compare:t0,hash:t4}};function
+l8(a){return t$[a.caml_custom]&&t$[a.caml_custom].compare}function
+t9(f,c,d,e){var
+b=l8(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-l7(a){return a
+mc(a){return a
 instanceof
-cH}function
-t2(a){return l7(a)}function
-tU(a){if(typeof
-a==="number")return iU;else
-if(l7(a))return 252;else
-if(t2(a))return 1252;else
+cI}function
+ug(a){return mc(a)}function
+t_(a){if(typeof
+a==="number")return i0;else
+if(mc(a))return 252;else
+if(ug(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==iK?0:b}else
+b=a[0]|0;return b==iQ?0:b}else
 if(a
 instanceof
-String)return s_;else
+String)return tn;else
 if(typeof
-a=="string")return s_;else
+a=="string")return tn;else
 if(a
 instanceof
-Number)return iU;else
-if(a&&a.caml_custom)return lL;else
+Number)return i0;else
+if(a&&a.caml_custom)return lS;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-Ly(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-tR(a,b){a.t&6&&fw(a);b.t&6&&fw(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-t_(a,b){return tR(a,b)}function
-l0(a,b,d){var
+LW(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+t7(a,b){a.t&6&&fA(a);b.t&6&&fA(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+uo(a,b){return t7(a,b)}function
+l7(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=tU(a);if(f==sI){a=a[1];continue}var
-g=tU(b);if(g==sI){b=b[1];continue}if(f!==g){if(f==iU){if(g==lL)return tT(a,b,-1,d);return-1}if(g==iU){if(f==lL)return tT(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:a7(lA);break;case
+f=t_(a);if(f==sX){a=a[1];continue}var
+g=t_(b);if(g==sX){b=b[1];continue}if(f!==g){if(f==i0){if(g==lS)return t9(a,b,-1,d);return-1}if(g==i0){if(f==lS)return t9(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:a9(lH);break;case
 248:var
-c=Ly(a[2],b[2]);if(c!=0)return c|0;break;case
-249:a7(lA);break;case
-250:a7("equal: got Forward_tag, should not happen");break;case
-251:a7("equal: abstract value");break;case
+c=LW(a[2],b[2]);if(c!=0)return c|0;break;case
+249:a9(lH);break;case
+250:a9("equal: got Forward_tag, should not happen");break;case
+251:a9("equal: abstract value");break;case
 252:if(a!==b){var
-c=tR(a,b);if(c!=0)return c|0}break;case
-253:a7("equal: got Double_tag, should not happen");break;case
-254:a7("equal: got Double_array_tag, should not happen");break;case
-255:a7("equal: got Custom_tag, should not happen");break;case
-1247:a7(lA);break;case
+c=t7(a,b);if(c!=0)return c|0}break;case
+253:a9("equal: got Double_tag, should not happen");break;case
+254:a9("equal: got Double_array_tag, should not happen");break;case
+255:a9("equal: got Custom_tag, should not happen");break;case
+1247:a9(lH);break;case
 1255:var
-i=l1(a);if(i!=l1(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)a7("compare: abstract value");var
+i=l8(a);if(i!=l8(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)a9("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -399,182 +399,182 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=fx(a),b=fx(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=fB(a),b=fB(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-Lm(a,b){return l0(a,b,true)}function
-cJ(a){if(a<0)a7("Bytes.create");return new
-cH(a?2:9,ai,a)}function
-tW(a,b){return+(l0(a,b,false)==0)}function
-Lo(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=ai;a.t=2}else{a.c=t9(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)i1(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-LI=0;function
-tY(){return LI++}function
-LA(a){return a.toUtf16()}function
-gQ(){return typeof
-Y.process!=="undefined"&&typeof
-Y.process.versions!=="undefined"&&typeof
-Y.process.versions.node!=="undefined"}function
-LV(){function
-a(a){if(a.charAt(0)===ck)return[ai,a.substring(1)];return}function
+LK(a,b){return l7(a,b,true)}function
+cK(a){if(a<0)a9("Bytes.create");return new
+cI(a?2:9,ai,a)}function
+ua(a,b){return+(l7(a,b,false)==0)}function
+LM(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=ai;a.t=2}else{a.c=un(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)i7(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+L6=0;function
+uc(){return L6++}function
+LY(a){return a.toUtf16()}function
+gW(){return typeof
+$.process!=="undefined"&&typeof
+$.process.versions!=="undefined"&&typeof
+$.process.versions.node!=="undefined"}function
+Mh(){function
+a(a){if(a.charAt(0)===cn)return[ai,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||ai,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||ai,f=a[2]||ai;return[d,c.substring(d.length+f.length)]}return}return gQ()&&Y.process&&Y.process.platform?Y.process.platform==="win32"?b:a:a}var
-mc=LV();function
-t$(a){return a.slice(-1)!==ck?a+ck:a}if(gQ()&&Y.process&&Y.process.cwd)var
-gN=Y.process.cwd().replace(/\\/g,ck);else
+d=a[1]||ai,f=a[2]||ai;return[d,c.substring(d.length+f.length)]}return}return gW()&&$.process&&$.process.platform?$.process.platform==="win32"?b:a:a}var
+mj=Mh();function
+up(a){return a.slice(-1)!==cn?a+cn:a}if(gW()&&$.process&&$.process.cwd)var
+gT=$.process.cwd().replace(/\\/g,cn);else
 var
-gN="/static";gN=t$(gN);function
-LC(a){a=LA(a);if(!mc(a))a=gN+a;var
-e=mc(a),d=e[1].split(ck),b=[];for(var
+gT="/static";gT=up(gT);function
+L0(a){a=LY(a);if(!mj(a))a=gT+a;var
+e=mj(a),d=e[1].split(cn),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-LQ(e){for(var
-f=ai,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<ci){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<ci;d++);if(d-c>sl){b.substr(0,1);f+=b;b=ai;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<sH){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(ci|a&fp)}else
-if(a<0xd800||a>=sO)b+=String.fromCharCode(sQ|a>>12,ci|a>>6&fp,ci|a&fp);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<sz||h>sO)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(sY|a>>18,ci|a>>12&fp,ci|a>>6&fp,ci|a&fp)}if(b.length>gE){b.substr(0,1);f+=b;b=ai}}return f+b}function
-Lj(a){var
-b=9;if(!uc(a))b=8,a=LQ(a);return new
-cH(b,a,a.length)}function
-fy(a){return Lj(a)}var
-LY=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",st,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",lI,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",lN,sy,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-ey(d,f,e,a){var
-b=LY.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,fy(f||ai),fy(e||ai)];return c}var
-t4={};function
-ev(a){return t4[a]}function
-ew(b,a){throw[0,b].concat(a)}function
-Li(a){return new
-cH(4,a,a.length)}function
-ax(a){l9(aN.Sys_error,a)}function
-LL(a){ax(a+iH)}function
-tQ(){a7(lT)}function
-Lh(b,a){if(a>>>0>=b.l)tQ();return lZ(b,a)}function
-i5(a){return a.l}function
-tJ(){}function
-a5(a){this.data=a}a5.prototype=new
-tJ();a5.prototype.truncate=function(a){var
-b=this.data;this.data=cJ(a|0);gM(b,0,this.data,0,a)};a5.prototype.length=function(){return i5(this.data)};a5.prototype.write=function(b,d,g,a){var
+Mc(e){for(var
+f=ai,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<cl){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<cl;d++);if(d-c>sA){b.substr(0,1);f+=b;b=ai;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<sW){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(cl|a&ft)}else
+if(a<0xd800||a>=s3)b+=String.fromCharCode(s5|a>>12,cl|a>>6&ft,cl|a&ft);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<sO||h>s3)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(tb|a>>18,cl|a>>12&ft,cl|a>>6&ft,cl|a&ft)}if(b.length>gK){b.substr(0,1);f+=b;b=ai}}return f+b}function
+LH(a){var
+b=9;if(!us(a))b=8,a=Mc(a);return new
+cI(b,a,a.length)}function
+fC(a){return LH(a)}var
+Mk=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",sI,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",lP,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",lU,sN,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+eD(d,f,e,a){var
+b=Mk.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,fC(f||ai),fC(e||ai)];return c}var
+ui={};function
+eA(a){return ui[a]}function
+eB(b,a){throw[0,b].concat(a)}function
+LG(a){return new
+cI(4,a,a.length)}function
+az(a){me(aO.Sys_error,a)}function
+L9(a){az(a+iN)}function
+t6(){a9(l0)}function
+LF(b,a){if(a>>>0>=b.l)t6();return l6(b,a)}function
+i$(a){return a.l}function
+tZ(){}function
+a7(a){this.data=a}a7.prototype=new
+tZ();a7.prototype.truncate=function(a){var
+b=this.data;this.data=cK(a|0);gS(b,0,this.data,0,a)};a7.prototype.length=function(){return i$(this.data)};a7.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=cJ(b+a),f=this.data;this.data=e;gM(f,0,this.data,0,c)}fu(d,g,this.data,b,a);return 0};a5.prototype.read=function(c,a,d,b){var
-e=this.length();gM(this.data,c,a,d,b);return 0};a5.prototype.read_one=function(a){return Lh(this.data,a)};a5.prototype.close=function(){};a5.prototype.constructor=a5;function
+e=cK(b+a),f=this.data;this.data=e;gS(f,0,this.data,0,c)}fy(d,g,this.data,b,a);return 0};a7.prototype.read=function(c,a,d,b){var
+e=this.length();gS(this.data,c,a,d,b);return 0};a7.prototype.read_one=function(a){return LF(this.data,a)};a7.prototype.close=function(){};a7.prototype.constructor=a7;function
 bn(b,a){this.content={};this.root=b;this.lookupFun=a}bn.prototype.nm=function(a){return this.root+a};bn.prototype.create_dir_if_needed=function(d){var
-c=d.split(ck),b=ai;for(var
-a=0;a<c.length-1;a++){b+=c[a]+ck;if(this.content[b])continue;this.content[b]=Symbol("directory")}};bn.prototype.slash=function(a){return/\/$/.test(a)?a:a+ck};bn.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
-c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-a5(fv(c[1]))}}};bn.prototype.exists=function(a){if(a==ai)return 1;var
+c=d.split(cn),b=ai;for(var
+a=0;a<c.length-1;a++){b+=c[a]+cn;if(this.content[b])continue;this.content[b]=Symbol("directory")}};bn.prototype.slash=function(a){return/\/$/.test(a)?a:a+cn};bn.prototype.lookup=function(a){if(!this.content[a]&&this.lookupFun){var
+c=this.lookupFun(b(this.root),b(a));if(c!==0){this.create_dir_if_needed(a);this.content[a]=new
+a7(fz(c[1]))}}};bn.prototype.exists=function(a){if(a==ai)return 1;var
 b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};bn.prototype.mkdir=function(c,e,d){var
-b=d&&ev(lE);if(this.exists(c))if(b)ew(b,ey(st,lD,this.nm(c)));else
-ax(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||ai;if(!this.exists(a))if(b)ew(b,ey(lI,lD,this.nm(a)));else
-ax(a+iH);if(!this.is_dir(a))if(b)ew(b,ey(lN,lD,this.nm(a)));else
-ax(a+lV);this.create_dir_if_needed(this.slash(c))};bn.prototype.rmdir=function(a,f){var
-b=f&&ev(lE),c=a==ai?ai:this.slash(a),e=new
-RegExp(lR+c+sA);if(!this.exists(a))if(b)ew(b,ey(lI,lB,this.nm(a)));else
-ax(a+iH);if(!this.is_dir(a))if(b)ew(b,ey(lN,lB,this.nm(a)));else
-ax(a+lV);for(var
+b=d&&eA(lL);if(this.exists(c))if(b)eB(b,eD(sI,lK,this.nm(c)));else
+az(c+": File exists");var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||ai;if(!this.exists(a))if(b)eB(b,eD(lP,lK,this.nm(a)));else
+az(a+iN);if(!this.is_dir(a))if(b)eB(b,eD(lU,lK,this.nm(a)));else
+az(a+l2);this.create_dir_if_needed(this.slash(c))};bn.prototype.rmdir=function(a,f){var
+b=f&&eA(lL),c=a==ai?ai:this.slash(a),e=new
+RegExp(lY+c+sP);if(!this.exists(a))if(b)eB(b,eD(lP,lI,this.nm(a)));else
+az(a+iN);if(!this.is_dir(a))if(b)eB(b,eD(lU,lI,this.nm(a)));else
+az(a+l2);for(var
 d
 in
-this.content)if(d.match(e))if(b)ew(b,ey(sy,lB,this.nm(a)));else
-ax(this.nm(a)+": Directory not empty");delete
+this.content)if(d.match(e))if(b)eB(b,eD(sN,lI,this.nm(a)));else
+az(this.nm(a)+": Directory not empty");delete
 this.content[c]};bn.prototype.readdir=function(a){var
-f=a==ai?ai:this.slash(a);if(!this.exists(a))ax(a+iH);if(!this.is_dir(a))ax(a+lV);var
+f=a==ai?ai:this.slash(a);if(!this.exists(a))az(a+iN);if(!this.is_dir(a))az(a+l2);var
 g=new
-RegExp(lR+f+sA),d={},c=[];for(var
+RegExp(lY+f+sP),d={},c=[];for(var
 e
 in
 this.content){var
 b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};bn.prototype.is_dir=function(a){if(a==ai)return true;var
 b=this.slash(a);return this.content[b]?1:0};bn.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};bn.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ax(this.nm(a)+to);if(b.text&&b.binary)ax(this.nm(a)+sd);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ax(this.nm(a)+" : is a directory");if(b.create&&b.excl)ax(this.nm(a)+tk);var
+this.content[a];return b};bn.prototype.open=function(a,b){if(b.rdonly&&b.wronly)az(this.nm(a)+tD);if(b.text&&b.binary)az(this.nm(a)+ss);this.lookup(a);if(this.content[a]){if(this.is_dir(a))az(this.nm(a)+" : is a directory");if(b.create&&b.excl)az(this.nm(a)+tz);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-a5(cJ(0));return this.content[a]}else
-LL(this.nm(a))};bn.prototype.register=function(c,a){var
-b;if(this.content[c])ax(this.nm(c)+tk);if(l7(a))b=new
-a5(a);if(t2(a))b=new
-a5(fv(a));else
+a7(cK(0));return this.content[a]}else
+L9(this.nm(a))};bn.prototype.register=function(c,a){var
+b;if(this.content[c])az(this.nm(c)+tz);if(mc(a))b=new
+a7(a);if(ug(a))b=new
+a7(fz(a));else
 if(a
 instanceof
 Array)b=new
-a5(Li(a));else
+a7(LG(a));else
 if(typeof
 a==="string")b=new
-a5(tS(a));else
+a7(t8(a));else
 if(a.toString){var
-d=fv(fy(a.toString()));b=new
-a5(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-ax(this.nm(c)+" : registering file with invalid content type")};bn.prototype.constructor=bn;function
-aG(a){return i5(a)}function
-ex(b,a){return lZ(b,a)}function
-Ld(d){var
-c=aG(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=ex(d,a);return b}function
-Lc(a){if(a.t!=4)i1(a);return a.c}function
-Ll(a,c,b){b&=c8;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}i1(a)}a.c[c]=b;return 0}function
-Lk(b,a,c){if(a>>>0>=b.l)tQ();return Ll(b,a,c)}function
-cI(a){this.fs=require("fs");this.fd=a}cI.prototype=new
-tJ();cI.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ax(a.toString())}};cI.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ax(a.toString())}};cI.prototype.write=function(f,b,c,e){var
-a=Ld(b);if(!(a
+d=fz(fC(a.toString()));b=new
+a7(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+az(this.nm(c)+" : registering file with invalid content type")};bn.prototype.constructor=bn;function
+aI(a){return i$(a)}function
+eC(b,a){return l6(b,a)}function
+LB(d){var
+c=aI(d),b=new
+Array(c),a=0;for(;a<c;a++)b[a]=eC(d,a);return b}function
+LA(a){if(a.t!=4)i7(a);return a.c}function
+LJ(a,c,b){b&=df;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}i7(a)}a.c[c]=b;return 0}function
+LI(b,a,c){if(a>>>0>=b.l)t6();return LJ(b,a,c)}function
+cJ(a){this.fs=require("fs");this.fd=a}cJ.prototype=new
+tZ();cJ.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){az(a.toString())}};cJ.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){az(a.toString())}};cJ.prototype.write=function(f,b,c,e){var
+a=LB(b);if(!(a
 instanceof
-Y.Uint8Array))a=new(Y.Uint8Array)(a);var
-d=Y.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ax(a.toString())}return 0};cI.prototype.read=function(g,d,c,f){var
-a=Lc(d);if(!(a
+$.Uint8Array))a=new($.Uint8Array)(a);var
+d=$.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){az(a.toString())}return 0};cJ.prototype.read=function(g,d,c,f){var
+a=LA(d);if(!(a
 instanceof
-Y.Uint8Array))a=new(Y.Uint8Array)(a);var
-e=Y.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ax(a.toString())}for(var
-b=0;b<f;b++)Lk(d,c+b,e[c+b]);return 0};cI.prototype.read_one=function(c){var
-b=new(Y.Uint8Array)(1),a=Y.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ax(a.toString())}return a[0]};cI.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ax(a.toString())}};cI.prototype.constructor=cI;function
-a6(a){this.fs=require("fs");this.root=a}a6.prototype.nm=function(a){return this.root+a};a6.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};a6.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};a6.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};a6.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};a6.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ax(a.toString())}};a6.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};a6.prototype.open=function(f,c,g){var
+$.Uint8Array))a=new($.Uint8Array)(a);var
+e=$.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){az(a.toString())}for(var
+b=0;b<f;b++)LI(d,c+b,e[c+b]);return 0};cJ.prototype.read_one=function(c){var
+b=new($.Uint8Array)(1),a=$.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){az(a.toString())}return a[0]};cJ.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){az(a.toString())}};cJ.prototype.constructor=cJ;function
+a8(a){this.fs=require("fs");this.root=a}a8.prototype.nm=function(a){return this.root+a};a8.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};a8.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};a8.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};a8.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};a8.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){az(a.toString())}};a8.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};a8.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-cI(d)}catch(a){this.raise_nodejs_error(a,g)}};a6.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};a6.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};a6.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};a6.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};a6.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),r1);return fy(a)}catch(a){this.raise_nodejs_error(a,c)}};a6.prototype.raise_nodejs_error=function(a,d){var
-b=ev(lE);if(d&&b){var
-c=ey(a.code,a.syscall,a.path,a.errno);ew(b,c)}else
-ax(a.toString())};a6.prototype.stats_from_js=function(a){var
+cJ(d)}catch(a){this.raise_nodejs_error(a,g)}};a8.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};a8.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};a8.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};a8.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};a8.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),se);return fC(a)}catch(a){this.raise_nodejs_error(a,c)}};a8.prototype.raise_nodejs_error=function(a,d){var
+b=eA(lL);if(d&&b){var
+c=eD(a.code,a.syscall,a.path,a.errno);eB(b,c)}else
+az(a.toString())};a8.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};a6.prototype.constructor=a6;function
-tZ(b){var
-a=mc(b);if(!a)return;return a[0]+ck}var
-i6=tZ(gN)||cl("unable to compute caml_root"),fz=[];if(gQ())fz.push({path:i6,device:new
-a6(i6)});else
-fz.push({path:i6,device:new
-bn(i6)});fz.push({path:r_,device:new
-bn(r_)});function
-ui(b){var
-g=LC(b),b=g.join(ck),f=t$(b),c;for(var
-e=0;e<fz.length;e++){var
-a=fz[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&gQ()){var
-d=tZ(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};a8.prototype.constructor=a8;function
+ud(b){var
+a=mj(b);if(!a)return;return a[0]+cn}var
+ja=ud(gT)||co("unable to compute caml_root"),fD=[];if(gW())fD.push({path:ja,device:new
+a8(ja)});else
+fD.push({path:ja,device:new
+bn(ja)});fD.push({path:sn,device:new
+bn(sn)});function
+uy(b){var
+g=L0(b),b=g.join(cn),f=up(b),c;for(var
+e=0;e<fD.length;e++){var
+a=fD[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&gW()){var
+d=ud(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-a6(d)};fz.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ax("no device found for "+f)}function
-Ln(c,b){var
-a=ui(c);if(!a.device.register)cl("cannot register file");a.device.register(a.rest,b);return 0}function
-ub(c,b){var
-c=a(c),b=a(b);return Ln(c,b)}function
-Lq(){var
-b=Y.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)ub(b[a].name,b[a].content);Y.jsoo_create_file=ub;Y.caml_fs_tmp=[];return 0}function
-LJ(c){var
-a=0,e=aG(c),b=10,d=1;if(e>0)switch(ex(c,a)){case
+a8(d)};fD.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;az("no device found for "+f)}function
+LL(c,b){var
+a=uy(c);if(!a.device.register)co("cannot register file");a.device.register(a.rest,b);return 0}function
+ur(c,a){var
+c=b(c),a=b(a);return LL(c,a)}function
+LO(){var
+b=$.caml_fs_tmp;if(b)for(var
+a=0;a<b.length;a++)ur(b[a].name,b[a].content);$.jsoo_create_file=ur;$.caml_fs_tmp=[];return 0}function
+L7(c){var
+a=0,e=aI(c),b=10,d=1;if(e>0)switch(eC(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&ex(c,a)==48)switch(ex(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&eC(c,a)==48)switch(eC(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -583,33 +583,33 @@ a=0,e=aG(c),b=10,d=1;if(e>0)switch(ex(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-t5(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=tA)return a-87;return-1}function
-i4(f){var
-h=LJ(f),c=h[0],i=h[1],d=h[2],g=aG(f),j=-1>>>0,e=c<g?ex(f,c):0,b=t5(e);if(b<0||b>=d)cl(iN);var
-a=b;for(c++;c<g;c++){e=ex(f,c);if(e==95)continue;b=t5(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)cl(iN)}if(c!=g)cl(iN);a=i*a;if(d==10&&(a|0)!=a)cl(iN);return a|0}function
-LB(a,b){return+(l0(a,b,false)<=0)}function
-LD(a,d){if(a<0)i0();var
+uj(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=tQ)return a-87;return-1}function
+i_(f){var
+h=L7(f),c=h[0],i=h[1],d=h[2],g=aI(f),j=-1>>>0,e=c<g?eC(f,c):0,b=uj(e);if(b<0||b>=d)co(iT);var
+a=b;for(c++;c<g;c++){e=eC(f,c);if(e==95)continue;b=uj(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)co(iT)}if(c!=g)co(iT);a=i*a;if(d==10&&(a|0)!=a)co(iT);return a|0}function
+LZ(a,b){return+(l7(a,b,false)<=0)}function
+L1(a,d){if(a<0)i6();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
-c$=new
+di=new
 Array();function
-LE(c){var
-a=c$[c];if(!a.opened)ax("Cannot flush a closed channel");if(!a.buffer||a.buffer==ai)return 0;if(a.fd&&aN.fds[a.fd]&&aN.fds[a.fd].output){var
-b=aN.fds[a.fd].output;switch(b.length){case
+L2(c){var
+a=di[c];if(!a.opened)az("Cannot flush a closed channel");if(!a.buffer||a.buffer==ai)return 0;if(a.fd&&aO.fds[a.fd]&&aO.fds[a.fd].output){var
+b=aO.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=ai;return 0}function
-t8(e,f){var
-b=c$[e],d=a(f),c=aG(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-LR(a){var
-a=l$(a),b=Y;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+um(e,f){var
+a=di[e],d=b(f),c=aI(d);a.file.write(a.offset,d,0,c);a.offset+=c;return 0}function
+Md(a){var
+a=mg(a),b=$;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-LS(a){var
-a=l$(a),b=Y;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+Me(a){var
+a=mg(a),b=$;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-i8(c,e,d,a){if(aN.fds===undefined)aN.fds=new
+jc(c,e,d,a){if(aO.fds===undefined)aO.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;aN.fds[c]=b;if(!aN.fd_last_idx||c>aN.fd_last_idx)aN.fd_last_idx=c;return c}function
-LZ(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;aO.fds[c]=b;if(!aO.fd_last_idx||c>aO.fd_last_idx)aO.fd_last_idx=c;return c}function
+Ml(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,177 +619,177 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ax(fx(c)+to);if(a.text&&a.binary)ax(fx(c)+sd);var
-d=ui(c),e=d.device.open(d.rest,a),f=aN.fd_last_idx?aN.fd_last_idx:0;return i8(f+1,t8,e,a)}i8(0,t8,new
-a5(cJ(0)));i8(1,LS,new
-a5(cJ(0)));i8(2,LR,new
-a5(cJ(0)));function
-LF(a){var
-c=aN.fds[a];if(c.flags.wronly)ax(ty+a+" is writeonly");var
-d=null;if(a==0&&gQ()){var
-e=require("fs");d=function(){return fy(e.readFileSync(0,r1))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};c$[b.fd]=b;return b.fd}function
-t3(c){var
-b=aN.fds[c];if(b.flags.rdonly)ax(ty+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:ai};c$[a.fd]=a;return a.fd}function
-LG(){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)az(fB(c)+tD);if(a.text&&a.binary)az(fB(c)+ss);var
+d=uy(c),e=d.device.open(d.rest,a),f=aO.fd_last_idx?aO.fd_last_idx:0;return jc(f+1,um,e,a)}jc(0,um,new
+a7(cK(0)));jc(1,Me,new
+a7(cK(0)));jc(2,Md,new
+a7(cK(0)));function
+L3(a){var
+c=aO.fds[a];if(c.flags.wronly)az(tO+a+" is writeonly");var
+d=null;if(a==0&&gW()){var
+e=require("fs");d=function(){return fC(e.readFileSync(0,se))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};di[b.fd]=b;return b.fd}function
+uh(c){var
+b=aO.fds[c];if(b.flags.rdonly)az(tO+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:ai};di[a.fd]=a;return a.fd}function
+L4(){var
 b=0;for(var
-a=0;a<c$.length;a++)if(c$[a]&&c$[a].opened&&c$[a].out)b=[0,c$[a].fd,b];return b}function
-b1(b,c,a){if(a&&Y.toplevelReloc)b=Y.toplevelReloc(a);aN[b+1]=c;if(a)aN[a]=c}function
-LN(a,b){t4[fx(a)]=b;return 0}function
-Lg(a,b){if(a===b)return 1;a.t&6&&fw(a);b.t&6&&fw(b);return a.c==b.c?1:0}function
-aJ(a,b){return Lg(a,b)}function
-LP(){a7(lT)}function
-be(b,a){if(a>>>0>=aG(b))LP();return ex(b,a)}function
-p(a,b){return 1-aJ(a,b)}function
-i7(a){return a}function
-t7(a){return a}function
-ua(a){if(a
+a=0;a<di.length;a++)if(di[a]&&di[a].opened&&di[a].out)b=[0,di[a].fd,b];return b}function
+b4(b,c,a){if(a&&$.toplevelReloc)b=$.toplevelReloc(a);aO[b+1]=c;if(a)aO[a]=c}function
+L$(a,b){ui[fB(a)]=b;return 0}function
+LE(a,b){if(a===b)return 1;a.t&6&&fA(a);b.t&6&&fA(b);return a.c==b.c?1:0}function
+aM(a,b){return LE(a,b)}function
+Mb(){a9(l0)}function
+be(b,a){if(a>>>0>=aI(b))Mb();return eC(b,a)}function
+p(a,b){return 1-aM(a,b)}function
+jb(a){return a}function
+ul(a){return a}function
+uq(a){if(a
 instanceof
-Array)return a;if(Y.RangeError&&a
+Array)return a;if($.RangeError&&a
 instanceof
-Y.RangeError&&a.message&&a.message.match(/maximum call stack/i))return t7(aN.Stack_overflow);if(Y.InternalError&&a
+$.RangeError&&a.message&&a.message.match(/maximum call stack/i))return ul(aO.Stack_overflow);if($.InternalError&&a
 instanceof
-Y.InternalError&&a.message&&a.message.match(/too much recursion/i))return t7(aN.Stack_overflow);if(a
+$.InternalError&&a.message&&a.message.match(/too much recursion/i))return ul(aO.Stack_overflow);if(a
 instanceof
-Y.Error&&ev(sF))return[0,ev(sF),a];return[0,aN.Failure,fy(String(a))]}function
-cK(a){return a<0?-a:a}function
+$.Error&&eA(sU))return[0,eA(sU),a];return[0,aO.Failure,fC(String(a))]}function
+cL(a){return a<0?-a:a}function
 G(a,b){return a+b}function
-ma(a,b){return a<b?-1:a>b?1:0}function
-ue(c,b){var
-a=c%b;return a<0?a+cK(b):a}function
-mb(a,b){return(a-ue(a,b))/b}function
+mh(a,b){return a<b?-1:a>b?1:0}function
+uu(c,b){var
+a=c%b;return a<0?a+cL(b):a}function
+mi(a,b){return(a-uu(a,b))/b}function
 H(a,b){return a==b?1:0}function
-LW(c){Y.orthocert_verify=function(b){return fx(c9(c,[a(b)]))}}function
+Mi(c){$.orthocert_verify=function(a){return fB(dg(c,[b(a)]))}}function
 D(a,b){return a<=b?1:0}function
 I(a,b){return a<b?1:0}function
 E(a,b){return a*b}function
-U(a){return-a}function
-aQ(a){return Y.BigInt(a)}var
-uh=[];function
-ud(a){return uh[a]||(uh[a]=Y.BigInt(a))}function
-uf(a,b){return a<<ud(b)}function
-ug(a,b){return a>>ud(b)}function
-a0(a){return a<0?-1:a>0?1:0}function
-LX(a){if(a<0)throw new(Y.Error)("a root of a negative number");if(a<2)return a;var
-d=Y.BigInt(1),b=d<<Y.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-aT(a,b){return a-b}function
-i9(b){var
-a=Y.Number(b);if(a!==(a|0))throw new(Y.Error)("a number of more than 32 bits");return a}function
-Lz(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-Lp(b){var
-a=ai;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Lz(b[1]))var
+W(a){return-a}function
+aS(a){return $.BigInt(a)}var
+ux=[];function
+ut(a){return ux[a]||(ux[a]=$.BigInt(a))}function
+uv(a,b){return a<<ut(b)}function
+uw(a,b){return a>>ut(b)}function
+a1(a){return a<0?-1:a>0?1:0}function
+Mj(a){if(a<0)throw new($.Error)("a root of a negative number");if(a<2)return a;var
+d=$.BigInt(1),b=d<<$.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
+aX(a,b){return a-b}function
+jd(b){var
+a=$.Number(b);if(a!==(a|0))throw new($.Error)("a number of more than 32 bits");return a}function
+LX(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+LN(b){var
+a=ai;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&LX(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=sG;for(var
+f=2,e=b;a+=sV;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-cH)a+=aZ+c.toString()+aZ;else
+cI)a+=a0+c.toString()+a0;else
 if(typeof
-c=="string")a+=aZ+c.toString()+aZ;else
-a+="_"}a+=lQ}else
+c=="string")a+=a0+c.toString()+a0;else
+a+="_"}a+=lX}else
 if(b[0]==bd)a+=b[1];return a}function
-tX(a){if(a
+ub(a){if(a
 instanceof
 Array&&(a[0]==0||a[0]==bd)){var
-c=ev("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=Lp(a),b=ev(r0);if(b)b(0);Y.console.error("Fatal error: exception "+d+"\n")}}else
+c=eA("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
+d=LN(a),b=eA(sd);if(b)b(0);$.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-LO(){var
-a=Y;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){tX(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)tX(a.error)})}LO();function
-h(a,b){return a.length==1?a(b):c9(a,[b])}function
-at(a,b,c){return a.length==2?a(b,c):c9(a,[b,c])}function
-fi(a,b,c,d){return a.length==3?a(b,c,d):c9(a,[b,c,d])}function
-gx(a,b,c,d,e){return a.length==4?a(b,c,d,e):c9(a,[b,c,d,e])}function
-Lb(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):c9(a,[b,c,d,e,f])}Lq();var
-me=[bd,a(sw),-2],md=[bd,a(tI),-4],Ki=[0,[0,[0,[0,0]]]],Kj=[0,0],Kk=[0,0],Kl=[0,[0,0]],Km=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kl]]]]]]]]]]],iq=[0,[1,0],0],rc=[0,[2,0],0],le=[0,[1,0],0],rb=[0,[2,0],0],io=[0,[1,0],0],ld=[0,[2,0],0],Kn=[0,[0,[0,[0,0]]]],Ko=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kn]]]]]]]]]]],Kp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ko]]]]]]]]]]],Kq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kp]]]]]]]]]]],Kr=[0,[0,0]],Ks=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kr]]]]]]]]]]],Kt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ks]]]]]]]]]]],Ku=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kt]]]]]]]]]]],Kv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ku]]]]]]]]]]],Kw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Kx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kw]]]]]]]]]]],Ky=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kx]]]]]]]]]]],Kz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ky]]]]]]]]]]],KA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kz]]]]]]]]]]],KB=[0,[0,0]],KC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KB]]]]]]]]]]],KD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KC]]]]]]]]]]],KE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KD]]]]]]]]]]],KF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KE]]]]]]]]]]],KG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KF]]]]]]]]]]],KH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KG]]]]]]]]]]],KI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KH]]]]]]]]]]],KJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],KK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KJ]]]]]]]]]]],KL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KK]]]]]]]]]]],KM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KL]]]]]]]]]]],KN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KM]]]]]]]]]]],KO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KN]]]]]]]]]]],KP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KO]]]]]]]]]]],KQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KP]]]]]]]]]]],KR=[0,0],KS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KR]]]]]]]]]]],KT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KS]]]]]]]]]]],KU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KT]]]]]]]]]]],KV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KU]]]]]]]]]]],KW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KV]]]]]]]]]]],KX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KW]]]]]]]]]]],KY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KX]]]]]]]]]]],KZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KY]]]]]]]]]]],K0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KZ]]]]]]]]]]],K1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K0]]]]]]]]]]],K2=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],K3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K2]]]]]]]]]]],K4=[0,0],K5=[0,[0,0]],K6=[0,0],K7=[0,[0,[0,[0,[0,0]]]]],dV=[0,[0,[0,0]]],dX=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],nK=[0,0],ib=[0,[0,[0,[0,0]]]],K8=[0,[0,[0,[0,[0,0]]]]],K9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K8]]]]]]]]]]],K_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K9]]]]]]]]]]],K$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K_]]]]]]]]]]],La=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K$]]]]]]]]]]];b1(11,[bd,a(rY),-12],rY);b1(10,[bd,a(sM),-11],sM);b1(9,[bd,a(tx),-10],tx);b1(8,[bd,a(r$),-9],r$);b1(7,[bd,a(s0),-8],s0);b1(6,[bd,a(r9),-7],r9);b1(5,[bd,a(sx),-6],sx);b1(4,[bd,a(sB),-5],sB);b1(3,md,tI);b1(2,[bd,a(lJ),-3],lJ);b1(1,me,sw);b1(0,[bd,a(th),-1],th);var
-uj=a("String.sub / Bytes.sub"),ul=a(ai),uk=a("String.concat"),um=a("Array.init"),un=a("power"),uT=[0,0],uU=[0,0],u0=[0,0,0],u1=[0,0,0],u2=[0,0],vj=[0,0],vp=[0,0],vq=[0,0],vr=[0,0],vz=[0,0],vR=[0,0],vU=[0,0],vY=[0,0],vZ=[0,0],v0=[0,0],v1=[0,0],wd=[0,0],we=[0,0],wH=[0,0],w7=[0,[0,[0,0]]],xJ=[0,0],ya=[0,0],yy=[0,0],yM=a(","),y4=[0,a(lQ),0],y5=a(sG),y6=a("."),y7=[0,[0,[0,0]]],y8=a(fr),y9=a(lR),y_=[0,[0,[0,[0,[0,0]]]]],y$=[0,a(lQ),0],za=a(tG),Cd=a(rV),Cf=a(rS),Ce=a(sP),Cg=a(fm),Ch=a(fk),Ci=a(iZ),Cj=a(tr),Ck=a(sq),Cl=a(iT),Cm=a(sU),Cn=a(sp),DE=[0,[0,[0,0,0],0]],DV=[0,0],DF=a(gy),DG=[0,0],DH=a(lP),DI=[0,1],DJ=a("mirror"),DK=[0,3],DL=a("negative"),DM=[0,2],DN=a(gD),DO=[0,5],DP=a(lX),DQ=[0,4],DR=a(dL),DS=a(iJ),DT=a(fn),DU=a(bZ),DW=[0,0],DX=[0,0],DY=[0,0],D1=[0,[0,[0,0]]],D2=[0,[0,[0,0]]],Er=[0,[0,[0,0]]],EF=[0,0],E0=a(ai),ES=[0,0],EU=[0,0],ET=[0,0],EV=[0,[0,[0,[0,0]]]],EW=[0,[0,[0,0]]],EX=[0,[0,[0,[0,0]]]],EY=[0,[0,[0,0]]],EQ=[0,[0,[0,0]]],EP=a(fn),EO=[0,0],EM=[0,1,0],EN=[0,[0,[0,0]]],EL=[0,0],EK=[0,0],EJ=[0,0],EG=[0,[0,0]],EH=[0,[0,[0,0]]],ED=[0,[0,0]],EE=[0,[0,[0,0]]],EC=[0,0],Ey=[0,[0,[0,0]]],Ex=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ki]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],Es=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],Et=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],Eu=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],Ev=[0,[0,[0,[0,0]]],[0,0,0]],Ep=[0,0],Eq=[0,[0,0]],Eo=[0,0,0],En=[0,[0,[0,0]]],Eh=[0,[0,0]],Ei=[0,[0,[0,0]]],Ej=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kj]]]]]]]]]]],Ek=[0,[0,0]],El=[0,[0,[0,0]]],Eg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kk]]]]]]]]]]],Ee=[0,[0,0]],Ef=[0,[0,[0,0]]],Ec=[0,[0,[0,0]]],Ed=[0,[0,0]],Eb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Km]]]]]]]]]]],Ea=[0,0],D$=[0,0],D8=[0,[0,0]],D9=[0,0],D6=[0,0],D7=[0,1],D4=[0,[0,0]],D5=[0,0],D3=[0,0],DZ=[0,0],D0=[0,1],Dy=[0,[0,0,0]],Dz=[0,[0,1,0]],DA=[0,[0,2,0]],DB=[0,[0,0,1]],DC=[0,[0,1,1]],DD=[0,[0,2,1]],Du=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Ds=[0,[0,0],0],Dt=[0,[1,0],0],Dv=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Dq=[0,[0,0]],Dr=[0,0],Dp=[0,0],Do=[0,0],Dn=[0,0],Dm=[0,0],Dl=[0,0,0],Dj=[0,[0,0]],Dk=[0,0],Di=[0,0,0],Dg=[0,[0,[0,0]]],Dh=[0,[0,[0,0]]],Df=[0,0],Dd=[0,1,0],C8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kq]]]]]]]]]]],C9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kv]]]]]]]]]]],C4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KA]]]]]]]]]]],C5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KI]]]]]]]]]]],C6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KQ]]]]]]]]]]],C7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K1]]]]]]]]]]],C_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K3]]]]]]]]]]],C$=a("sqrt"),CT=[0,a("\n"),0],CU=a(rT),CV=a(iI),CW=a(sL),CX=a(su),C3=a(gG),CY=a(gC),CZ=a("verdict"),C0=a(ti),C1=a(sm),C2=a(sK),CQ=a(sE),CR=a(tm),CS=a(iL),CM=a(sW),CN=a(iM),CO=a(gC),CP=a(gG),CH=a(iV),CI=a(bF),CJ=a(rU),CK=a(iR),CE=a(tg),CF=a(gD),CG=a(iR),CA=a(sZ),CB=a(iV),CC=a(iM),CD=a(tv),Cp=a(tn),Cq=a(tq),Cr=a(iQ),Cs=a(iO),Ct=a(tB),Cu=a(tc),Cv=a(tf),Cw=a(s3),Cx=a(iQ),Cy=a(s6),Cb=a(iG),Cc=a(gF),B8=a(b0),B9=a(bY),B_=a(so),BI=a(iO),BJ=a(s2),Bm=a(bF),Bn=a(cj),Bo=a(iX),Bp=a(fq),Bq=a(cF),Bv=a(lC),Br=a(lS),Bs=a(lU),Bt=a(fl),Bu=a(bF),Bw=a(cj),Bx=a(iX),By=a(fq),Bz=a(lS),BA=a(lU),BB=a(fl),BC=a(bF),BD=a(cj),BE=a(b0),BF=a(bY),BG=a(es),BH=a(fq),BK=a(ta),BL=a(tp),BM=a(iY),BN=a(sc),BO=a(sh),BP=a(fl),BQ=a(bF),BR=a(cj),BS=a(iE),BT=a(ss),BU=a(fq),BV=a(gL),BW=a(r3),BX=a(fl),BY=a(bF),BZ=a(iE),B0=a(bF),B1=a(s5),B4=a(rR),B2=a(sf),B3=a(tu),B5=a(gG),B6=a(gC),B7=a(bF),B$=a(iY),Ca=a(iL),Bh=a(cj),Bi=a(fq),Bj=a(lC),Bk=a(fl),Bg=a(tD),A6=a(gL),A7=a(tj),A8=a(et),A9=a(fo),A_=a(fo),A$=a(lF),Ba=a(et),Bb=a(sN),Bc=a(sn),Bd=a(bv),Bf=a(rX),Be=a(lF),AW=a(sD),AX=a(tH),AY=a(sj),AZ=a(sg),A0=a(tt),A1=a(te),A2=a(sv),A3=a(iF),A4=a(iF),AS=a(bv),AT=a(bX),AU=a(fs),AV=a(bE),AO=a(cF),AP=a(lM),AQ=a(sX),AL=a(b0),AM=a(bY),AN=a(es),AE=a(b0),AF=a(bY),AG=a(es),AH=a(lO),AI=a(et),AJ=a(lK),AK=a(s$),Am=a(se),As=a(iI),Ar=a(lW),An=a(lG),Ao=a(gA),At=a(gB),Av=a(gB),Aw=a(s9),Ax=a(lG),Au=a(gA),Ay=a(sb),Az=a(s8),AA=a(gA),AB=a(tC),AC=a(lW),AD=a(gA),Ap=a(fo),Aq=a(sS),Aj=a(iP),Ak=a(iP),Al=a(iP),Af=a(tb),Ag=a(bY),Ah=a(b0),Ai=a(ts),z0=a(r7),z1=a(rW),z2=a(s1),z3=a(fm),z4=a(tE),z5=a(s4),z6=a(r8),z7=a(sT),z8=a(r6),z9=a(sr),z_=a(r5),z$=a(td),Aa=a(fk),Ab=a(r2),Ac=a(tl),Ad=a(si),Ae=a(tF),zB=a(iS),zD=a(fr),zC=a(gz),zE=a(fj),zF=a(bv),zG=a(bX),zH=a(bZ),zI=a(gH),zJ=a(bE),zK=a(gJ),zL=a(bv),zM=a(bX),zN=a(fs),zO=a(bE),zP=a(bZ),zQ=a(cF),zR=a(bE),zS=a(fj),zT=a(gK),zU=a(bv),zV=a(bX),zW=a(sR),zX=a(gB),zY=a(gK),zZ=a(bE),zj=a(iS),zr=a(fr),zk=a(gz),zl=a(fj),zm=a(bv),zn=a(bX),zo=a(bZ),zp=a(gH),zq=a(bE),zs=a(gJ),zt=a(bv),zu=a(bX),zv=a(fs),zw=a(bE),zx=a(bZ),zy=a(cF),zz=a(bE),zg=a(b0),zh=a(bY),ze=[0,a(aZ),0],zf=a(aZ),zc=a(ai),zb=[0,a(aZ),0],zd=a(aZ),y0=a(iS),y1=a(fr),y2=a("*"),y3=a(ck),yV=[0,[0,[0,[0,[0,0]]]]],yW=[0,[0,[0,0]]],yX=[0,[0,0]],yY=[0,0],yZ=[0,[0,[0,[0,0]]]],yT=a('":'),yU=a(aZ),yR=[0,a(aZ),0],yS=a(aZ),yP=[0,a("}"),0],yQ=a("{"),yN=[0,a("]"),0],yO=a("["),yL=[0,[0,[0,0]]],yK=[0,[0,[0,0]]],yI=[0,0],yF=[0,[0,[0,0]]],yG=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],yH=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],yD=[0,[0,0]],yE=[0,[0,[0,0]]],yA=[0,0],yB=[0,[0,0]],yC=[0,0],yz=[0,0],yw=[0,0],yx=[0,[0,0]],yt=[0,0],yu=[0,[0,0]],yv=[0,0],yo=[0,[0,0]],yp=[0,0],yq=[0,[0,[0,0]]],yr=[0,[0,[0,0]]],yn=[0,[0,[0,0]]],ym=[0,[0,[0,0]]],yl=[0,0],yi=[0,[0,[0,0]]],yk=[0,[0,[0,0]]],yj=[0,0],yg=[0,[0,0]],yh=[0,0],ye=[0,[0,0]],yf=[0,0],yd=[0,[0,[0,0]]],yb=[0,[0,0]],yc=[0,0],x_=[0,0],x$=[0,[0,0]],x4=[0,[0,0]],x5=[0,[0,[0,[0,[0,0]]]]],x6=[0,[0,[0,[0,0]]]],x7=[0,[0,[0,0]]],x8=[0,[0,0]],x9=[0,0],x1=[0,0],x2=[0,[0,0]],x3=[0,0],x0=[0,0],xW=[0,0],xX=[0,[0,[0,[0,[0,[0,0]]]]]],xY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K4]]]]]]]]]]],xU=[0,0,0],xV=[0,0,0],xR=[0,0,0],xS=[0,0],xN=[0,0,0],xO=[0,0,0],xP=[0,0,0],xK=[0,[0,0]],xL=[0,[0,[0,0]]],xM=[0,0],xF=[0,0],xG=[0,[0,0]],xH=[0,0],xI=[0,[0,0]],xC=[0,0],xD=[0,[0,0]],xE=[0,0],xA=[0,0,0],xB=[0,0,[0,1,0]],xw=[0,0,0],xx=[0,0,0],xy=[0,0,0],xz=[0,0,0],xt=[0,[0,[0,[0,[0,[0,0]]]]]],xu=[0,[0,[0,0]]],xv=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],xm=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],xn=[0,[0,[0,0]]],xo=[0,[0,[0,[0,[0,[0,0]]]]]],xp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K5]]]]]]]]]]],xq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K6]]]]]]]]]]],xr=[0,[0,[0,0]]],xs=[0,[0,[0,[0,[0,[0,0]]]]]],xi=[0,0,0],xj=[0,0,0],xe=[0,0,0],xf=[0,0,0],xg=[0,0,0],xh=[0,0,0],xd=[0,0],xc=[0,0],xb=[0,0],w$=[0,0],xa=[0,0],w_=[0,0],w8=[0,0],w9=[0,0],w0=[0,0],w1=[0,0],w2=[0,0],w3=[0,[0,[0,0]]],wZ=[0,0],wT=[0,0],wU=[0,0],wV=[0,[0,0]],wR=[0,[0,0]],wS=[0,[0,[0,0]]],wP=[0,[0,[0,0]]],wQ=[0,[0,0]],wN=[0,[0,0]],wO=[0,[0,[0,0]]],wM=[0,0],wK=[0,0],wL=[0,0],wI=[0,0,0],wF=[0,[0,0]],wG=[0,0],wx=[0,[0,0]],wy=[0,0],wz=[0,[0,0]],wA=[0,0],wB=[0,[0,0]],wC=[0,0],wD=[0,[0,0]],wE=[0,0],wv=[0,[0,0]],ww=[0,0],wt=[0,[0,0]],wu=[0,0],wp=[0,[0,0]],wq=[0,0],wr=[0,0],ws=[0,[0,0]],wg=[0,[0,0]],wh=[0,0],wi=[0,[0,0]],wj=[0,0],wk=[0,0],wl=[0,[0,0]],wm=[0,[0,0]],wn=[0,[0,0]],wo=[0,0],wc=[0,0],wb=[0,0],v_=[0,0],v$=[0,[0,0]],v9=[0,[0,[0,0]]],v8=[0,[0,[0,[0,[0,[0,0]]]]]],v6=[0,[0,0]],v7=[0,0],v5=[0,[0,0]],v4=[0,0],v2=[0,0],v3=[0,[0,[0,0]]],vW=[0,[0,0]],vX=[0,[0,[0,0]]],vV=[0,[0,[0,0]]],vS=[0,[0,[0,0]]],vQ=[0,[0,[0,0]]],vO=[0,[0,[0,[0,[0,[0,0]]]]]],vP=[0,[0,[0,[0,[0,[0,0]]]]]],vJ=[0,[0,0]],vK=[0,0],vL=[0,[0,0]],vM=[0,[0,[0,0]]],vN=[0,[0,[0,0]]],vC=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],vD=[0,[0,[0,[0,[0,[0,0]]]]]],vE=[0,[0,[0,[0,[0,[0,0]]]]]],vF=[0,[0,[0,0]]],vG=[0,[0,[0,[0,[0,[0,0]]]]]],vH=[0,[0,[0,0]]],vI=[0,[0,[0,0]]],vA=[0,[0,0]],vB=[0,0],vw=[0,0,0],vx=[0,[0,0,0],0],vy=[0,0,0],vu=[0,0,0],vv=[0,[0,0,0],0],vt=[0,0,0],vs=[0,[0,[0,0]]],vk=[0,0],vl=[0,0],vm=[0,0],vn=[0,0],vh=[0,0],vi=[0,0],vf=[0,0,0],vc=[0,[0,[0,0]]],vd=[0,[0,[0,0]]],ve=[0,[0,[0,0]]],vb=[0,[0,[0,[0,0]]]],u9=[0,[0,[0,0]]],u_=[0,[0,[0,0]]],u$=[0,[0,[0,0]]],va=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],u7=[0,[0,0]],u8=[0,0],u5=[0,[0,0]],u6=[0,0],u3=[0,[0,0]],u4=[0,0],uQ=[0,0],uR=[0,[0,0]],uO=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],uP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K7]]]]]]]]]]],uM=[0,0,0],uK=[0,[0,[0,[0,[0,0]]]]],uA=[0,0],uB=[0,[0,0]],uC=[0,[0,[0,0]]],uD=[0,[0,[0,[0,0]]]],uE=[0,[0,[0,[0,[0,0]]]]],uF=[0,[0,[0,[0,[0,[0,0]]]]]],uG=[0,[0,[0,[0,[0,[0,[0,0]]]]]]],uH=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],uI=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],uJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],uy=a(tz),ux=a(ai),uw=[0,[0,0]],uu=[0,0],ur=[0,0],ut=[1,0],us=[0,0],uq=[0,0],uo=[1,0],up=[1,0],wa=[10,0,0,0,0],EI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,La]]]]]]]]]]],Ie=a(b0),If=a(bY),Ig=a(so),H8=a(gJ),H9=[0,a("a base axis of such a platform"),0],H_=a(bv),H$=a(bX),HV=a(te),HW=a(sD),HX=a(tt),HY=a(iF),HZ=a(sv),H0=a(iF),H1=a(tH),H2=a(sj),H3=a(sg),HJ=a(s2),HK=a(iO),Hl=[0,a("such a machine with bodies"),0],G_=a(iL),G$=a(bF),Ha=a(s5),Hb=a(tu),He=a(sf),Hf=a(rR),Hg=a(bF),Hh=a(bF),Hj=a(iE),Hi=[0,a("a claim that no cube of such a machine fits"),0],Hk=a(tD),Hm=a(fl),Hn=a(fq),Ho=a(cF),Hp=a(lM),Hq=a(sX),Hr=a(iX),Hs=a(sh),Ht=a(r3),Hu=a(lC),Hx=a(es),Hy=a(s$),HB=a(cj),HC=a(cj),HD=a(ss),HE=a(cj),HF=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],HG=a(iE),HH=a(gL),HI=a(es),HL=a(tp),HM=a(ta),HN=[0,a(" operations, with its definitions written out,"),0],HO=a("a mechanism of more than "),HP=a(cj),HQ=a(b0),HR=a(bY),HS=a(iY),HT=a(sc),Hv=[0,a(aZ),0],Hw=a('the mechanism "'),HU=a(lS),H4=a(iX),H5=a(cF),H6=a(lM),H7=a(lU),Ia=a(cj),Id=a(cF),Ib=[0,a("a platform that turns on struts and other drives"),0],Ic=a(cj),Hz=[0,a(aZ),0],HA=a('the workspace "'),Ih=a(bF),Ii=a(bF),Ik=a(gG),Il=a(gC),Im=a(iY),Ij=[0,a("an atlas of such a machine"),0],Hc=[0,a(aZ),0],Hd=a('a claim of the kind "'),IA=a(iZ),IB=a(dL),IC=a(iJ),ID=a(fn),IE=a(iT),IF=a(lP),IG=a(gy),IH=a(iZ),II=a(iJ),IJ=a(iT),IK=a(lP),IL=[0,a('this evidence "fan"'),0],Ir=a(dL),IW=a(gF),IX=[0,1,1],Is=a(sU),IN=a(fk),IO=a(sp),IP=a(fm),IQ=a(sq),IR=a(sP),IS=a(bZ),IT=a(gF),IU=a(iG),IV=a(bZ),It=a(iZ),Iu=a(dL),Iv=a(iJ),Iw=a(fn),Ix=a(iT),IM=[0,a('evidence "fan" about "divided" and other rows'),0],Iy=[0,a(aZ),0],Iz=a('the evidence "'),IY=a(fk),IZ=a(fm),I0=a(dL),I1=a(fn),I2=a(tr),I4=a(fk),I5=a(fm),I6=a(dL),I7=a(fn),I8=a(gD),I9=a(gy),I_=a(gD),I$=a(gy),I3=[0,a("this evidence at control points"),0],Kb=a('"orthocert-paving/'),J4=a(dL),J5=a(dL),JR=a(sK),JS=a(sm),JT=a(ti),J$=[0,3,3],JU=a(su),J2=[0,a("this set of orientations with such drives"),0],J3=[0,a(rZ),0],J6=[0,a('this evidence "tolerances" of a platform that turns'),0],J7=[0,a("a step of a platform that turns that is not at control points"),0],J8=[0,a("this quantity in a claim that is refuted"),0],J9=[0,a("a step in a proof that no cube fits"),0],J_=[0,a('the failure "same" of such a mechanism'),0],JV=[0,a(rZ),0],J0=[0,a("a stiffness for each joint in such a claim"),0],J1=[0,a(s7),0],JZ=[0,a(s7),0],JW=a(sL),JX=a(rT),JY=a(iI),JN=a(lX),JO=a(gy),JP=a(bZ),JF=a(iL),JG=a(sE),JH=a(tm),JI=[0,a(aZ),0],JJ=a('a proof of the kind "'),JB=a(gC),JC=a(gG),JD=a(iM),JE=a(sW),Jx=a(bF),Jy=a(iV),Jz=a(rU),JA=a(iR),Ju=a(tg),Jv=a(gD),Jw=a(iR),Jq=a(sZ),Jr=a(iV),Js=a(iM),Jt=a(tv),Jc=a(tq),Jd=a(iQ),Je=a(tn),Jf=a(iO),Jg=a(s6),Jh=a(tB),Jk=a(tc),Jl=a(iG),Jm=a(gF),Jn=a(tf),Jo=a(s3),Jp=a(iQ),Ji=[0,a(aZ),0],Jj=a('the failure "'),Ja=a(lX),Jb=a(tz),Ip=a(gF),Iq=a(iG),In=a(rS),Io=a(rV),G7=a(gL),GX=a(lF),GY=a(rX),GZ=a(fo),G0=a(bv),G5=a(tj),G6=a(gL),G8=a(et),G9=a(fo),G1=a(et),G2=a(sN),G3=a(sn),G4=a(bv),GQ=a(es),GU=a(b0),GV=a(bY),GR=a(lK),GS=a(lO),GT=a(et),GK=a(es),GO=a(b0),GP=a(bY),GL=a(lK),GM=a(lO),GN=a(et),GJ=[0,1],GI=[0,1],GG=[0,1],GE=[0,1],GD=[0,1],GB=[0,1],GC=[0,a("this quantity of such a mechanism"),0],Gk=a(lG),Gl=a(s8),Gm=a(sb),Gn=a(lW),Go=a(tC),Gq=a(s9),Gp=a(gB),Gj=a(iI),Gb=a(iP),F1=a(sS),F2=a(s1),Gt=a(fk),Gu=a(tl),Gv=a(sr),Gw=a(fm),Gx=a(sT),Gy=a(r5),Gz=a(r6),GA=a(rW),F3=a(r2),F4=a(tF),F5=a(td),F6=a(s4),F7=a(si),F8=a(tE),F9=a(r8),F_=a(r7),F$=[0,a(aZ),0],Ga=a('the quantity "'),Gc=a(se),Gd=a(tb),Ge=a(b0),Gf=a(bY),Gg=a(ts),Gh=[0,a(aZ),0],Gi=a('a bound "'),Gr=a(gA),Gs=a(fo),FZ=a(bE),F0=a(fs),FX=a(bE),FY=a(cF),FU=a(bE),FV=a(gH),Fw=a(bE),Fx=a(gJ),Fy=a(gK),Fz=a(cF),FA=a(gH),FB=a(fs),FE=a(bv),FF=a(bX),FG=a(gz),FH=a(fj),FI=a(bv),FJ=a(bX),FK=a(bZ),FL=a(bZ),FM=a(gz),FN=a(fj),FO=a(gK),FP=a(bv),FQ=a(bX),FR=a(sR),FS=a(gB),FC=[0,a('" of such a machine'),0],FD=a(sa),Fu=a(bE),Fv=a(gK),Fe=a(bE),Ff=a(cF),Fg=a(gH),Fh=a(fs),Fk=a(gJ),Fl=a(bv),Fm=a(bX),Fn=a(gz),Fo=a(fj),Fp=a(bv),Fq=a(bX),Fr=a(bZ),Fs=a(bZ),Fi=[0,a(aZ),0],Fj=a(sa),Fb=a(iS),Fc=a(fr),E$=a(" is not covered by the verified checker"),Fa=a(ai),E9=a(b0),E_=a(bY),E5=a(ai),E6=a(tG),E7=a(ai),E8=a(ai),E4=[1,0],E3=a(fr),E1=a("Reader.Malformed"),E2=a("Reader.Not_covered"),Kd=[0,a("a paving is checked by orthocert-verified")],Kc=a(sV),Ke=a("CERTIFIED"),Kf=a("REFUTED"),Kg=a(sV),Kh=a("NOT COVERED: ");function
-gR(a){throw[0,md,a]}function
-mf(b,a){return LB(b,a)?b:a}function
+Ma(){var
+a=$;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){ub(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)ub(a.error)})}Ma();function
+h(a,b){return a.length==1?a(b):dg(a,[b])}function
+au(a,b,c){return a.length==2?a(b,c):dg(a,[b,c])}function
+fm(a,b,c,d){return a.length==3?a(b,c,d):dg(a,[b,c,d])}function
+gD(a,b,c,d,e){return a.length==4?a(b,c,d,e):dg(a,[b,c,d,e])}function
+Lz(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):dg(a,[b,c,d,e,f])}LO();var
+ml=[bd,b(sL),-2],mk=[bd,b(tY),-4],KG=[0,[0,[0,[0,0]]]],KH=[0,0],KI=[0,0],KJ=[0,[0,0]],KK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KJ]]]]]]]]]]],iw=[0,[1,0],0],rr=[0,[2,0],0],ll=[0,[1,0],0],rq=[0,[2,0],0],iu=[0,[1,0],0],lk=[0,[2,0],0],KL=[0,[0,[0,[0,0]]]],KM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KL]]]]]]]]]]],KN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KM]]]]]]]]]]],KO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KN]]]]]]]]]]],KP=[0,[0,0]],KQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KP]]]]]]]]]]],KR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KQ]]]]]]]]]]],KS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KR]]]]]]]]]]],KT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KS]]]]]]]]]]],KU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],KV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KU]]]]]]]]]]],KW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KV]]]]]]]]]]],KX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KW]]]]]]]]]]],KY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KX]]]]]]]]]]],KZ=[0,[0,0]],K0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KZ]]]]]]]]]]],K1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K0]]]]]]]]]]],K2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K1]]]]]]]]]]],K3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K2]]]]]]]]]]],K4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K3]]]]]]]]]]],K5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K4]]]]]]]]]]],K6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K5]]]]]]]]]]],K7=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],K8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K7]]]]]]]]]]],K9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K8]]]]]]]]]]],K_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K9]]]]]]]]]]],K$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K_]]]]]]]]]]],La=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K$]]]]]]]]]]],Lb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,La]]]]]]]]]]],Lc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lb]]]]]]]]]]],Ld=[0,0],Le=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ld]]]]]]]]]]],Lf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Le]]]]]]]]]]],Lg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lf]]]]]]]]]]],Lh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lg]]]]]]]]]]],Li=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lh]]]]]]]]]]],Lj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Li]]]]]]]]]]],Lk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lj]]]]]]]]]]],Ll=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lk]]]]]]]]]]],Lm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ll]]]]]]]]]]],Ln=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lm]]]]]]]]]]],Lo=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Lp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lo]]]]]]]]]]],Lq=[0,0],Lr=[0,[0,0]],Ls=[0,0],Lt=[0,[0,[0,[0,[0,0]]]]],dW=[0,[0,[0,0]]],dY=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],nR=[0,0],ii=[0,[0,[0,[0,0]]]],Lu=[0,[0,[0,[0,[0,0]]]]],Lv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lu]]]]]]]]]]],Lw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lv]]]]]]]]]]],Lx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lw]]]]]]]]]]],Ly=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lx]]]]]]]]]]];b4(11,[bd,b(sb),-12],sb);b4(10,[bd,b(s1),-11],s1);b4(9,[bd,b(tN),-10],tN);b4(8,[bd,b(so),-9],so);b4(7,[bd,b(td),-8],td);b4(6,[bd,b(sm),-7],sm);b4(5,[bd,b(sM),-6],sM);b4(4,[bd,b(sQ),-5],sQ);b4(3,mk,tY);b4(2,[bd,b(lQ),-3],lQ);b4(1,ml,sL);b4(0,[bd,b(tw),-1],tw);var
+uz=b("String.sub / Bytes.sub"),uB=b(ai),uA=b("String.concat"),uC=b("Array.init"),uD=b("power"),u9=[0,0],u_=[0,0],ve=[0,0,0],vf=[0,0,0],vg=[0,0],vz=[0,0],vF=[0,0],vJ=[0,0],vL=[0,0],vM=[0,0],vU=[0,0],wb=[0,0],we=[0,0],wi=[0,0],wj=[0,0],wk=[0,0],wl=[0,0],wz=[0,0],wA=[0,0],w3=[0,0],xr=[0,[0,[0,0]]],x5=[0,0],yw=[0,0],yU=[0,0],y8=b(","),zo=[0,b(lX),0],zp=b(sV),zq=b("."),zr=[0,[0,[0,0]]],zs=b(fv),zt=b(lY),zu=[0,[0,[0,[0,[0,0]]]]],zv=[0,b(lX),0],zw=b(tW),Cz=b(r_),CB=b(r7),CA=b(s4),CC=b(fq),CD=b(fo),CE=b(i5),CF=b(tG),CG=b(sF),CH=b(iZ),CI=b(s9),CJ=b(sE),CK=b(tK),D1=[0,[0,[0,0,0],0]],Eg=[0,0],D2=b(gE),D3=[0,0],D4=b(lW),D5=[0,1],D6=b("mirror"),D7=[0,3],D8=b("negative"),D9=[0,2],D_=b(gJ),D$=[0,5],Ea=b(l4),Eb=[0,4],Ec=b(dM),Ed=b(iP),Ee=b(fr),Ef=b(b2),Eh=[0,0],Ei=[0,0],Ej=[0,0],Em=[0,[0,[0,0]]],En=[0,[0,[0,0]]],EO=[0,[0,[0,0]]],E2=[0,0],Fl=b(ai),Fd=[0,0],Ff=[0,0],Fe=[0,0],Fg=[0,[0,[0,[0,0]]]],Fh=[0,[0,[0,0]]],Fi=[0,[0,[0,[0,0]]]],Fj=[0,[0,[0,0]]],Fb=[0,[0,[0,0]]],Fa=b(fr),E$=[0,0],E9=[0,1,0],E_=[0,[0,[0,0]]],E8=[0,0],E7=[0,0],E6=[0,0],E3=[0,[0,0]],E4=[0,[0,[0,0]]],E0=[0,[0,0]],E1=[0,[0,[0,0]]],EZ=[0,0],EV=[0,[0,[0,0]]],EU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KG]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],EP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],EQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],ER=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],ES=[0,[0,[0,[0,0]]],[0,0,0]],EM=[0,0],EN=[0,[0,0]],EL=[0,0,0],EK=[0,[0,[0,0]]],EE=[0,[0,0]],EF=[0,[0,[0,0]]],EG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KH]]]]]]]]]]],EH=[0,[0,0]],EI=[0,[0,[0,0]]],ED=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KI]]]]]]]]]]],EB=[0,[0,0]],EC=[0,[0,[0,0]]],Ez=[0,[0,[0,0]]],EA=[0,[0,0]],Ey=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KK]]]]]]]]]]],Ex=[0,0],Ew=[0,0],Et=[0,[0,0]],Eu=[0,0],Er=[0,0],Es=[0,1],Ep=[0,[0,0]],Eq=[0,0],Eo=[0,0],Ek=[0,0],El=[0,1],DV=[0,[0,0,0]],DW=[0,[0,1,0]],DX=[0,[0,2,0]],DY=[0,[0,0,1]],DZ=[0,[0,1,1]],D0=[0,[0,2,1]],DR=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],DP=[0,[0,0],0],DQ=[0,[1,0],0],DS=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],DN=[0,[0,0]],DO=[0,0],DM=[0,0],DL=[0,0],DK=[0,0],DJ=[0,0],DI=[0,0,0],DG=[0,[0,0]],DH=[0,0],DF=[0,0,0],DD=[0,[0,[0,0]]],DE=[0,[0,[0,0]]],DC=[0,0],DA=[0,1,0],Dt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KO]]]]]]]]]]],Du=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KT]]]]]]]]]]],Dp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KY]]]]]]]]]]],Dq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K6]]]]]]]]]]],Dr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lc]]]]]]]]]]],Ds=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ln]]]]]]]]]]],Dv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lp]]]]]]]]]]],Dw=b("sqrt"),De=[0,b("\n"),0],Df=b(r8),Dg=b(iO),Dh=b(s0),Di=b(sJ),Do=b(gM),Dj=b(gI),Dk=b("verdict"),Dl=b(tx),Dm=b(sB),Dn=b(sZ),Db=b(sT),Dc=b(tB),Dd=b(iR),C9=b(s$),C_=b(iS),C$=b(gI),Da=b(gM),C4=b(i1),C5=b(bH),C6=b(r9),C7=b(iX),C1=b(tv),C2=b(gJ),C3=b(iX),CX=b(tc),CY=b(i1),CZ=b(iS),C0=b(tL),CM=b(tC),CN=b(tF),CO=b(iW),CP=b(iU),CQ=b(tR),CR=b(tr),CS=b(tu),CT=b(tg),CU=b(iW),CV=b(tj),Cx=b(iM),Cy=b(gL),Cs=b(b3),Ct=b(b1),Cu=b(sD),B4=b(iU),B5=b(tf),BI=b(bH),BJ=b(cm),BK=b(i3),BL=b(fu),BM=b(cG),BR=b(lJ),BN=b(lZ),BO=b(l1),BP=b(fp),BQ=b(bH),BS=b(cm),BT=b(i3),BU=b(fu),BV=b(lZ),BW=b(l1),BX=b(fp),BY=b(bH),BZ=b(cm),B0=b(b3),B1=b(b1),B2=b(ex),B3=b(fu),B6=b(tp),B7=b(tE),B8=b(i4),B9=b(sr),B_=b(sw),B$=b(fp),Ca=b(bH),Cb=b(cm),Cc=b(iK),Cd=b(sH),Ce=b(fu),Cf=b(gR),Cg=b(sg),Ch=b(fp),Ci=b(bH),Cj=b(iK),Ck=b(bH),Cl=b(ti),Co=b(r6),Cm=b(su),Cn=b(tJ),Cp=b(gM),Cq=b(gI),Cr=b(bH),Cv=b(i4),Cw=b(iR),BD=b(cm),BE=b(fu),BF=b(lJ),BG=b(fp),BC=b(tT),Bq=b(gR),Br=b(ty),Bs=b(ey),Bt=b(fs),Bu=b(fs),Bv=b(lM),Bw=b(ey),Bx=b(s2),By=b(sC),Bz=b(bx),BB=b(sa),BA=b(lM),Bg=b(sS),Bh=b(tX),Bi=b(sy),Bj=b(sv),Bk=b(tI),Bl=b(tt),Bm=b(sK),Bn=b(iL),Bo=b(iL),Bc=b(bx),Bd=b(b0),Be=b(fw),Bf=b(bG),A_=b(cG),A$=b(lT),Ba=b(ta),A7=b(b3),A8=b(b1),A9=b(ex),A0=b(b3),A1=b(b1),A2=b(ex),A3=b(lV),A4=b(ey),A5=b(lR),A6=b(to),AI=b(st),AO=b(iO),AN=b(l3),AJ=b(lN),AK=b(gG),AP=b(gH),AR=b(gH),AS=b(tm),AT=b(lN),AQ=b(gG),AU=b(sq),AV=b(tl),AW=b(gG),AX=b(tS),AY=b(l3),AZ=b(gG),AL=b(fs),AM=b(s7),AF=b(iV),AG=b(iV),AH=b(iV),AB=b(tq),AC=b(b1),AD=b(b3),AE=b(tH),Ak=b(sk),Al=b(r$),Am=b(te),An=b(fq),Ao=b(tU),Ap=b(th),Aq=b(sl),Ar=b(s8),As=b(sj),At=b(sG),Au=b(si),Av=b(ts),Aw=b(fo),Ax=b(sf),Ay=b(tA),Az=b(sx),AA=b(tV),zX=b(iY),zZ=b(fv),zY=b(gF),z0=b(fn),z1=b(bx),z2=b(b0),z3=b(b2),z4=b(gN),z5=b(bG),z6=b(gP),z7=b(bx),z8=b(b0),z9=b(fw),z_=b(bG),z$=b(b2),Aa=b(cG),Ab=b(bG),Ac=b(fn),Ad=b(gQ),Ae=b(bx),Af=b(b0),Ag=b(s6),Ah=b(gH),Ai=b(gQ),Aj=b(bG),zF=b(iY),zN=b(fv),zG=b(gF),zH=b(fn),zI=b(bx),zJ=b(b0),zK=b(b2),zL=b(gN),zM=b(bG),zO=b(gP),zP=b(bx),zQ=b(b0),zR=b(fw),zS=b(bG),zT=b(b2),zU=b(cG),zV=b(bG),zC=b(b3),zD=b(b1),zA=[0,b(a0),0],zB=b(a0),zy=b(ai),zx=[0,b(a0),0],zz=b(a0),zk=b(iY),zl=b(fv),zm=b("*"),zn=b(cn),zf=[0,[0,[0,[0,[0,0]]]]],zg=[0,[0,[0,0]]],zh=[0,[0,0]],zi=[0,0],zj=[0,[0,[0,[0,0]]]],zd=b('":'),ze=b(a0),zb=[0,b(a0),0],zc=b(a0),y$=[0,b("}"),0],za=b("{"),y9=[0,b("]"),0],y_=b("["),y7=[0,[0,[0,0]]],y6=[0,[0,[0,0]]],y4=[0,0],y1=[0,[0,[0,0]]],y2=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],y3=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],yZ=[0,[0,0]],y0=[0,[0,[0,0]]],yW=[0,0],yX=[0,[0,0]],yY=[0,0],yV=[0,0],yS=[0,0],yT=[0,[0,0]],yP=[0,0],yQ=[0,[0,0]],yR=[0,0],yK=[0,[0,0]],yL=[0,0],yM=[0,[0,[0,0]]],yN=[0,[0,[0,0]]],yJ=[0,[0,[0,0]]],yI=[0,[0,[0,0]]],yH=[0,0],yE=[0,[0,[0,0]]],yG=[0,[0,[0,0]]],yF=[0,0],yC=[0,[0,0]],yD=[0,0],yA=[0,[0,0]],yB=[0,0],yz=[0,[0,[0,0]]],yx=[0,[0,0]],yy=[0,0],yu=[0,0],yv=[0,[0,0]],yo=[0,[0,0]],yp=[0,[0,[0,[0,[0,0]]]]],yq=[0,[0,[0,[0,0]]]],yr=[0,[0,[0,0]]],ys=[0,[0,0]],yt=[0,0],yl=[0,0],ym=[0,[0,0]],yn=[0,0],yk=[0,0],yg=[0,0],yh=[0,[0,[0,[0,[0,[0,0]]]]]],yi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lq]]]]]]]]]]],ye=[0,0,0],yf=[0,0,0],yb=[0,0,0],yc=[0,0],x9=[0,0,0],x_=[0,0,0],x$=[0,0,0],x6=[0,[0,0]],x7=[0,[0,[0,0]]],x8=[0,0],x1=[0,0],x2=[0,[0,0]],x3=[0,0],x4=[0,[0,0]],xY=[0,0],xZ=[0,[0,0]],x0=[0,0],xW=[0,0,0],xX=[0,0,[0,1,0]],xS=[0,0,0],xT=[0,0,0],xU=[0,0,0],xV=[0,0,0],xP=[0,[0,[0,[0,[0,[0,0]]]]]],xQ=[0,[0,[0,0]]],xR=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],xI=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],xJ=[0,[0,[0,0]]],xK=[0,[0,[0,[0,[0,[0,0]]]]]],xL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lr]]]]]]]]]]],xM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ls]]]]]]]]]]],xN=[0,[0,[0,0]]],xO=[0,[0,[0,[0,[0,[0,0]]]]]],xE=[0,0,0],xF=[0,0,0],xA=[0,0,0],xB=[0,0,0],xC=[0,0,0],xD=[0,0,0],xz=[0,0],xy=[0,0],xx=[0,0],xv=[0,0],xw=[0,0],xu=[0,0],xs=[0,0],xt=[0,0],xk=[0,0],xl=[0,0],xm=[0,0],xn=[0,[0,[0,0]]],xj=[0,0],xd=[0,0],xe=[0,0],xf=[0,[0,0]],xb=[0,[0,0]],xc=[0,[0,[0,0]]],w$=[0,[0,[0,0]]],xa=[0,[0,0]],w9=[0,[0,0]],w_=[0,[0,[0,0]]],w8=[0,0],w6=[0,0],w7=[0,0],w4=[0,0,0],w1=[0,[0,0]],w2=[0,0],wT=[0,[0,0]],wU=[0,0],wV=[0,[0,0]],wW=[0,0],wX=[0,[0,0]],wY=[0,0],wZ=[0,[0,0]],w0=[0,0],wR=[0,[0,0]],wS=[0,0],wP=[0,[0,0]],wQ=[0,0],wL=[0,[0,0]],wM=[0,0],wN=[0,0],wO=[0,[0,0]],wC=[0,[0,0]],wD=[0,0],wE=[0,[0,0]],wF=[0,0],wG=[0,0],wH=[0,[0,0]],wI=[0,[0,0]],wJ=[0,[0,0]],wK=[0,0],wy=[0,0],wx=[0,0],wu=[0,0],wv=[0,[0,0]],wt=[0,[0,[0,0]]],ws=[0,[0,[0,[0,[0,[0,0]]]]]],wq=[0,[0,0]],wr=[0,0],wp=[0,[0,0]],wo=[0,0],wm=[0,0],wn=[0,[0,[0,0]]],wg=[0,[0,0]],wh=[0,[0,[0,0]]],wf=[0,[0,[0,0]]],wc=[0,[0,[0,0]]],wa=[0,[0,[0,0]]],v_=[0,[0,[0,[0,[0,[0,0]]]]]],v$=[0,[0,[0,[0,[0,[0,0]]]]]],v5=[0,[0,0]],v6=[0,0],v7=[0,[0,0]],v8=[0,[0,[0,0]]],v9=[0,[0,[0,0]]],vY=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],vZ=[0,[0,[0,[0,[0,[0,0]]]]]],v0=[0,[0,[0,[0,[0,[0,0]]]]]],v1=[0,[0,[0,0]]],v2=[0,[0,[0,[0,[0,[0,0]]]]]],v3=[0,[0,[0,0]]],v4=[0,[0,[0,0]]],vW=[0,[0,0]],vX=[0,0],vR=[0,0,0],vS=[0,[0,0,0],0],vT=[0,0,0],vP=[0,0,0],vQ=[0,[0,0,0],0],vO=[0,0,0],vN=[0,[0,[0,0]]],vK=[0,0,2],vH=[0,0],vI=[0,[0,0]],vA=[0,0],vB=[0,0],vC=[0,0],vD=[0,0],vx=[0,0],vy=[0,0],vv=[0,0,0],vs=[0,[0,[0,0]]],vt=[0,[0,[0,0]]],vu=[0,[0,[0,0]]],vr=[0,[0,[0,[0,0]]]],vn=[0,[0,[0,0]]],vo=[0,[0,[0,0]]],vp=[0,[0,[0,0]]],vq=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],vl=[0,[0,0]],vm=[0,0],vj=[0,[0,0]],vk=[0,0],vh=[0,[0,0]],vi=[0,0],u6=[0,0],u7=[0,[0,0]],u4=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],u5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lt]]]]]]]]]]],u2=[0,0,0],u0=[0,[0,[0,[0,[0,0]]]]],uQ=[0,0],uR=[0,[0,0]],uS=[0,[0,[0,0]]],uT=[0,[0,[0,[0,0]]]],uU=[0,[0,[0,[0,[0,0]]]]],uV=[0,[0,[0,[0,[0,[0,0]]]]]],uW=[0,[0,[0,[0,[0,[0,[0,0]]]]]]],uX=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],uY=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],uZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],uO=b(tP),uN=b(ai),uM=[0,[0,0]],uK=[0,0],uH=[0,0],uJ=[1,0],uI=[0,0],uG=[0,0],uE=[1,0],uF=[1,0],vG=[0,[0,[0,[0,[0,[0,0]]]]]],ww=[10,0,0,0,0],E5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ly]]]]]]]]]]],IB=b(b3),IC=b(b1),ID=b(sD),It=b(gP),Iu=[0,b("a base axis of such a platform"),0],Iv=b(bx),Iw=b(b0),Ig=b(tt),Ih=b(sS),Ii=b(tI),Ij=b(iL),Ik=b(sK),Il=b(iL),Im=b(tX),In=b(sy),Io=b(sv),H6=b(tf),H7=b(iU),HI=[0,b("such a machine with bodies"),0],Hv=b(iR),Hw=b(bH),Hx=b(ti),Hy=b(tJ),HB=b(su),HC=b(r6),HD=b(bH),HE=b(bH),HG=b(iK),HF=[0,b("a claim that no cube of such a machine fits"),0],HH=b(tT),HJ=b(fp),HK=b(fu),HL=b(cG),HM=b(lT),HN=b(ta),HO=b(i3),HP=b(sw),HQ=b(sg),HR=b(lJ),HU=b(ex),HV=b(to),HY=b(cm),HZ=b(cm),H0=b(sH),H1=b(cm),H2=[0,b("the closed design with other bounds on psi than one from below and one from above"),0],H3=b(iK),H4=b(gR),H5=b(ex),H8=b(tE),H9=b(tp),H_=[0,b(" operations, with its definitions written out,"),0],H$=b("a mechanism of more than "),Ia=b(cm),Ib=b(b3),Ic=b(b1),Id=b(i4),Ie=b(sr),HS=[0,b(a0),0],HT=b('the mechanism "'),If=b(lZ),Ip=b(i3),Iq=b(cG),Ir=b(lT),Is=b(l1),Ix=b(cm),IA=b(cG),Iy=[0,b("a platform that turns on struts and other drives"),0],Iz=b(cm),HW=[0,b(a0),0],HX=b('the workspace "'),IE=b(bH),IF=b(bH),IH=b(gM),II=b(gI),IJ=b(i4),IG=[0,b("an atlas of such a machine"),0],Hz=[0,b(a0),0],HA=b('a claim of the kind "'),IY=b(i5),IZ=b(dM),I0=b(iP),I1=b(fr),I2=b(iZ),I3=b(lW),I4=b(gE),I5=b(i5),I6=b(iP),I7=b(iZ),I8=b(lW),I9=[0,b('this evidence "fan"'),0],IO=b(dM),Ji=b(gL),Jj=[0,1,1],IP=b(s9),I$=b(fo),Ja=b(sE),Jb=b(fq),Jc=b(sF),Jd=b(s4),Je=b(b2),Jf=b(gL),Jg=b(iM),Jh=b(b2),IQ=b(i5),IR=b(dM),IS=b(iP),IT=b(fr),IU=b(tK),IV=b(iZ),I_=[0,b('evidence "fan" about "divided" and other rows'),0],IW=[0,b(a0),0],IX=b('the evidence "'),Jk=b(fo),Jl=b(fq),Jm=b(dM),Jn=b(fr),Jo=b(tG),Jq=b(fo),Jr=b(fq),Js=b(dM),Jt=b(fr),Ju=b(gJ),Jv=b(gE),Jw=b(gJ),Jx=b(gE),Jp=[0,b("this evidence at control points"),0],Kz=b('"orthocert-paving/'),Kq=b(dM),Kr=b(dM),Kd=b(sZ),Ke=b(sB),Kf=b(tx),Kx=[0,3,3],Kg=b(sJ),Ko=[0,b("this set of orientations with such drives"),0],Kp=[0,b(sc),0],Ks=[0,b('this evidence "tolerances" of a platform that turns'),0],Kt=[0,b("a step of a platform that turns that is not at control points"),0],Ku=[0,b("this quantity in a claim that is refuted"),0],Kv=[0,b("a step in a proof that no cube fits"),0],Kw=[0,b('the failure "same" of such a mechanism'),0],Kh=[0,b(sc),0],Km=[0,b("a stiffness for each joint in such a claim"),0],Kn=[0,b(tk),0],Kl=[0,b(tk),0],Ki=b(s0),Kj=b(r8),Kk=b(iO),J$=b(l4),Ka=b(gE),Kb=b(b2),J3=b(iR),J4=b(sT),J5=b(tB),J6=[0,b(a0),0],J7=b('a proof of the kind "'),JZ=b(gI),J0=b(gM),J1=b(iS),J2=b(s$),JV=b(bH),JW=b(i1),JX=b(r9),JY=b(iX),JS=b(tv),JT=b(gJ),JU=b(iX),JO=b(tc),JP=b(i1),JQ=b(iS),JR=b(tL),JA=b(tF),JB=b(iW),JC=b(tC),JD=b(iU),JE=b(tj),JF=b(tR),JI=b(tr),JJ=b(iM),JK=b(gL),JL=b(tu),JM=b(tg),JN=b(iW),JG=[0,b(a0),0],JH=b('the failure "'),Jy=b(l4),Jz=b(tP),IM=b(gL),IN=b(iM),IK=b(r7),IL=b(r_),Hs=b(gR),Hi=b(lM),Hj=b(sa),Hk=b(fs),Hl=b(bx),Hq=b(ty),Hr=b(gR),Ht=b(ey),Hu=b(fs),Hm=b(ey),Hn=b(s2),Ho=b(sC),Hp=b(bx),Hb=b(ex),Hf=b(b3),Hg=b(b1),Hc=b(lR),Hd=b(lV),He=b(ey),G7=b(ex),G$=b(b3),Ha=b(b1),G8=b(lR),G9=b(lV),G_=b(ey),G6=[0,1],G5=[0,1],G3=[0,1],G1=[0,1],G0=[0,1],GY=[0,1],GZ=[0,b("this quantity of such a mechanism"),0],GH=b(lN),GI=b(tl),GJ=b(sq),GK=b(l3),GL=b(tS),GN=b(tm),GM=b(gH),GG=b(iO),Gy=b(iV),Gm=b(s7),Gn=b(te),GQ=b(fo),GR=b(tA),GS=b(sG),GT=b(fq),GU=b(s8),GV=b(si),GW=b(sj),GX=b(r$),Go=b(sf),Gp=b(tV),Gq=b(ts),Gr=b(th),Gs=b(sx),Gt=b(tU),Gu=b(sl),Gv=b(sk),Gw=[0,b(a0),0],Gx=b('the quantity "'),Gz=b(st),GA=b(tq),GB=b(b3),GC=b(b1),GD=b(tH),GE=[0,b(a0),0],GF=b('a bound "'),GO=b(gG),GP=b(fs),Gk=b(bG),Gl=b(fw),Gi=b(bG),Gj=b(cG),Gf=b(bG),Gg=b(gN),FT=b(bG),FU=b(gP),FV=b(gQ),FW=b(cG),FX=b(gN),FY=b(fw),F1=b(bx),F2=b(b0),F3=b(gF),F4=b(fn),F5=b(bx),F6=b(b0),F7=b(b2),F8=b(b2),F9=b(gF),F_=b(fn),F$=b(gQ),Ga=b(bx),Gb=b(b0),Gc=b(s6),Gd=b(gH),FZ=[0,b('" of such a machine'),0],F0=b(sp),FR=b(bG),FS=b(gQ),FB=b(bG),FC=b(cG),FD=b(gN),FE=b(fw),FH=b(gP),FI=b(bx),FJ=b(b0),FK=b(gF),FL=b(fn),FM=b(bx),FN=b(b0),FO=b(b2),FP=b(b2),FF=[0,b(a0),0],FG=b(sp),Fy=b(iY),Fz=b(fv),Fw=b(" is not covered by the verified checker"),Fx=b(ai),Fu=b(b3),Fv=b(b1),Fq=b(ai),Fr=b(tW),Fs=b(ai),Ft=b(ai),Fp=[1,0],Fo=b(fv),Fm=b("Reader.Malformed"),Fn=b("Reader.Not_covered"),KB=[0,b("a paving is checked by orthocert-verified")],KA=b(s_),KC=b("CERTIFIED"),KD=b("REFUTED"),KE=b(s_),KF=b("NOT COVERED: ");function
+gX(a){throw[0,mk,a]}function
+mm(b,a){return LZ(b,a)?b:a}function
 bo(d,c){var
-a=aG(d),e=aG(c),b=cJ(a+e|0);fu(d,0,b,0,a);fu(c,0,b,a,e);return i7(b)}function
-mg(a,b){if(a){var
-c=a[1];return[0,c,mg(a[2],b)]}return b}LF(0);t3(1);t3(2);function
-mh(b){function
+a=aI(d),e=aI(c),b=cK(a+e|0);fy(d,0,b,0,a);fy(c,0,b,a,e);return jb(b)}function
+mn(a,b){if(a){var
+c=a[1];return[0,c,mn(a[2],b)]}return b}L3(0);uh(1);uh(2);function
+mo(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{LE(d)}catch(a){a=ua(a);if(a[1]!==me)throw a;var
+c=a[2],d=a[1];try{L2(d)}catch(a){a=uq(a);if(a[1]!==ml)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(LG(0))}LN(a(r0),mh);function
-cL(c){var
+a=c;continue}return 0}}return a(L4(0))}L$(b(sd),mo);function
+cM(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-mi(d,c){var
+mp(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-i_(a){return mi(a,0)}function
+je(a){return mp(a,0)}function
 Z(b,a){if(a){var
 c=a[2],d=h(b,a[1]);return[0,d,Z(b,c)]}return 0}function
-mj(e,d,c){var
+mq(e,d,c){var
 b=d,a=c;for(;;){if(a){var
-f=a[2],b=at(e,b,a[1]),a=f;continue}return b}}function
-ez(d,c){var
+f=a[2],b=au(e,b,a[1]),a=f;continue}return b}}function
+eE(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=h(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
-aR(d,c){var
+aT(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=h(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
-mk(d,c){var
+mr(d,c){var
 a=c;for(;;){if(a){var
-b=a[1],e=a[2],f=b[2];if(0===Lm(b[1],d))return[0,f];var
+b=a[1],e=a[2],f=b[2];if(0===LK(b[1],d))return[0,f];var
 a=e;continue}return 0}}function
-b2(b,c){var
-a=cJ(b);Lo(a,0,b,c);return i7(a)}function
-eA(g,b,a){var
-d=fv(g),f=0;if(0<=b&&0<=a&&!((i5(d)-a|0)<b)){var
-c=cJ(a);gM(d,b,c,0,a);var
+b5(b,c){var
+a=cK(b);LM(a,0,b,c);return jb(a)}function
+eF(g,b,a){var
+d=fz(g),f=0;if(0<=b&&0<=a&&!((i$(d)-a|0)<b)){var
+c=cK(a);gS(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=gR(uj);return i7(e)}function
-ml(k,g){if(g){var
-h=aG(k),c=0,b=g,p=0;for(;;){if(b){var
+e=gX(uz);return jb(e)}function
+ms(k,g){if(g){var
+h=aI(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(aG(i)+h|0)+c|0,m=b[2],n=c<=j?j:gR(uk),c=n,b=m;continue}var
-l=aG(i)+c|0}else
+j=(aI(i)+h|0)+c|0,m=b[2],n=c<=j?j:gX(uA),c=n,b=m;continue}var
+l=aI(i)+c|0}else
 var
 l=c;var
-f=cJ(l),e=p,d=g;for(;;){if(d){var
+f=cK(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];fu(a,0,f,e,aG(a));fu(k,0,f,e+aG(a)|0,h);var
-e=(e+aG(a)|0)+h|0,d=o;continue}fu(a,0,f,e,aG(a))}return i7(f)}}}return ul}function
-i$(b,c){if(0===b)return[0];if(0<=b){var
-d=LD(b,h(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+o=d[2];fy(a,0,f,e,aI(a));fy(k,0,f,e+aI(a)|0,h);var
+e=(e+aI(a)|0)+h|0,d=o;continue}fy(a,0,f,e,aI(a))}return jb(f)}}}return uB}function
+jf(b,c){if(0===b)return[0];if(0<=b){var
+d=L1(b,h(c,0)),e=b-1|0,f=1;if(!(e<1)){var
 a=f;for(;;){d[1+a]=h(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return gR(um)}function
-ja(c){var
+a=g;continue}break}}return d}return gX(uC)}function
+jg(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
-d=aQ(0),b=aQ(1);function
-r(a){return G(a,b)}function
-mm(b,a){return G(aQ(b),a)}function
-c(b,a){return E(aQ(b),a)}function
-a1(b,a){return[0,mb(b,a),ue(b,a)]}function
-jb(b,a){return D(b,a)?b:a}function
-bw(b,a){return D(b,a)?a:b}function
-fA(a){return fA}function
-J(a){return a?0:1}function
+e=aS(0),a=aS(1);function
+s(b){return G(b,a)}function
+mt(b,a){return G(aS(b),a)}function
+c(b,a){return E(aS(b),a)}function
+a2(b,a){return[0,mi(b,a),uu(b,a)]}function
+jh(b,a){return D(b,a)?b:a}function
+by(b,a){return D(b,a)?a:b}function
+fE(a){return fE}function
+L(a){return a?0:1}function
 x(b,a){var
 c=a?[0,h(b,a[1])]:a;return c}function
-as(a){return a[1]}function
-aK(a){return a[2]}function
+ao(a){return a[1]}function
+aH(a){return a[2]}function
 f(a){var
 b=a?[0,f(a[2])]:a;return b}function
 g(a,b){if(a){var
 c=g(a[2],b);return[0,a[1],c]}return b}function
-mn(a){return typeof
-a==="number"?0:[0,mn(a[1])]}function
-mo(d,c){var
+mu(a){return typeof
+a==="number"?0:[0,mu(a[1])]}function
+mv(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -812,9 +812,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-gS(a){return mo(a,0)}function
-mp(a){if(typeof
-a==="number")return uo;else
+gY(a){return mv(a,0)}function
+mw(a){if(typeof
+a==="number")return uE;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -824,181 +824,181 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,mp(a[1])]}}function
-b4(a){if(typeof
-a==="number")return up;else
+8:return[9,a[1]];default:return[0,mw(a[1])]}}function
+b7(a){if(typeof
+a==="number")return uF;else
 switch(a[0]){case
-0:return[1,b3(a[1])];case
-1:return[3,b3(a[1])];case
-2:return[5,b3(a[1])];case
-3:return[7,b3(a[1])];case
-4:return[9,b3(a[1])];case
-5:return[1,b4(a[1])];case
-6:return[3,b4(a[1])];case
-7:return[5,b4(a[1])];case
-8:return[7,b4(a[1])];default:return[9,b4(a[1])]}}function
-b3(a){if(typeof
+0:return[1,b6(a[1])];case
+1:return[3,b6(a[1])];case
+2:return[5,b6(a[1])];case
+3:return[7,b6(a[1])];case
+4:return[9,b6(a[1])];case
+5:return[1,b7(a[1])];case
+6:return[3,b7(a[1])];case
+7:return[5,b7(a[1])];case
+8:return[7,b7(a[1])];default:return[9,b7(a[1])]}}function
+b6(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,b3(a[1])];case
-1:return[2,b3(a[1])];case
-2:return[4,b3(a[1])];case
-3:return[6,b3(a[1])];case
-4:return[8,b3(a[1])];case
-5:return[0,b4(a[1])];case
-6:return[2,b4(a[1])];case
-7:return[4,b4(a[1])];case
-8:return[6,b4(a[1])];default:return[8,b4(a[1])]}}function
-aU(a){return a?a[1]:a}function
-O(b,a){return b?[0,O(b[1],a)]:a}function
-mq(a,b){return a?O(b,mq(a[1],b)):a}function
-dN(d,c){var
+0:return[0,b6(a[1])];case
+1:return[2,b6(a[1])];case
+2:return[4,b6(a[1])];case
+3:return[6,b6(a[1])];case
+4:return[8,b6(a[1])];case
+5:return[0,b7(a[1])];case
+6:return[2,b7(a[1])];case
+7:return[4,b7(a[1])];case
+8:return[6,b7(a[1])];default:return[8,b7(a[1])]}}function
+aY(a){return a?a[1]:a}function
+P(b,a){return b?[0,P(b[1],a)]:a}function
+gZ(a,b){return a?P(b,gZ(a[1],b)):a}function
+dO(d,c){var
 a=d,b=c;for(;;){if(a){if(b){var
 a=a[1],b=b[1];continue}return a}return a}}function
-cM(b,a){return b?a:a?0:1}function
+cN(b,a){return b?a:a?0:1}function
 m(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
 ae(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-aF(b,a){return ae([0,b],a)}function
-ay(d,c){var
+aE(b,a){return ae([0,b],a)}function
+aA(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return 2}var
 e=a?1:a;return e}}function
-mr(c){var
+mx(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-gT(c,b,a){return c?h(b,gT(c[1],b,a)):a}function
-ms(a){if(a)var
-b=a[1],d=b?[0,ms(b[1])]:b,c=d;else
+g0(c,b,a){return c?h(b,g0(c[1],b,a)):a}function
+my(a){if(a)var
+b=a[1],d=b?[0,my(b[1])]:b,c=d;else
 var
 c=a;return c}function
-jc(d,c){var
+g1(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-mt(a){if(D(a,b))return b;var
-e=a1(a,aQ(2)),f=e[1];return H(e[2],d)?r(c(2,mt(f))):r(c(2,c(2,f)))}function
-mu(c,a){return bw(b,aT(c,a))}function
-gU(a,j,i){var
-c=j,f=i;for(;;){if(D(f,b))return h(a,c);var
-g=a1(f,aQ(2)),e=g[1];if(H(g[2],d)){var
-c=gU(a,c,e),f=e;continue}return h(a,gU(a,gU(a,c,e),e))}}function
-gV(a){function
-c(b){return E(a,b)}return function(a){return gU(c,b,a)}}function
-gW(a){if(D(a,b))return ur;var
-c=a1(a,aQ(2)),e=c[1];return H(c[2],d)?[0,gW(e)]:[0,gW(e)]}function
-gX(a){if(D(a,b))return b;var
-c=a1(a,aQ(2)),e=c[1];return H(c[2],d)?r(gX(e)):r(gX(e))}function
-mv(c,b){var
-a=ma(c,b);return 0===a?0:0<=a?2:1}function
-gY(j,i){var
-c=j,a=i;for(;;){if(D(c,b))return D(a,b)?1:H(a1(a,aQ(2))[2],d)?0:0;var
-g=a1(c,aQ(2)),h=g[1];if(H(g[2],d)){if(D(a,b))return 0;var
-e=a1(a,aQ(2)),k=e[1];if(H(e[2],d)){var
-c=h,a=k;continue}return 0}if(D(a,b))return 0;var
-f=a1(a,aQ(2)),l=f[1];if(H(f[2],d))return 0;var
-c=h,a=l;continue}}function
-gZ(b,a){return 2<=mv(b,a)?0:1}function
-eB(i,e,a){if(i){var
-f=i[1];if(D(e,b))return[0,b,[0,b,a]];var
-w=a1(e,aQ(2)),g=w[1];if(H(w[2],d)){if(D(a,b))return[0,b,[0,e,b]];var
-m=a1(a,aQ(2)),A=m[1];if(H(m[2],d)){var
-j=eB(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
-k=eB(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(D(a,b))return[0,b,[0,e,b]];var
-v=a1(a,aQ(2)),h=v[1];if(H(v[2],d)){var
-n=eB(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(mv(g,h)){case
-0:return[0,e,[0,b,b]];case
+mz(b){if(D(b,a))return a;var
+d=a2(b,aS(2)),f=d[1];return H(d[2],e)?s(c(2,mz(f))):s(c(2,c(2,f)))}function
+mA(c,b){return by(a,aX(c,b))}function
+g2(b,j,i){var
+c=j,f=i;for(;;){if(D(f,a))return h(b,c);var
+g=a2(f,aS(2)),d=g[1];if(H(g[2],e)){var
+c=g2(b,c,d),f=d;continue}return h(b,g2(b,g2(b,c,d),d))}}function
+g3(b){function
+c(a){return E(b,a)}return function(b){return g2(c,a,b)}}function
+g4(b){if(D(b,a))return uH;var
+c=a2(b,aS(2)),d=c[1];return H(c[2],e)?[0,g4(d)]:[0,g4(d)]}function
+g5(b){if(D(b,a))return a;var
+c=a2(b,aS(2)),d=c[1];return H(c[2],e)?s(g5(d)):s(g5(d))}function
+mB(c,b){var
+a=mh(c,b);return 0===a?0:0<=a?2:1}function
+g6(j,i){var
+c=j,b=i;for(;;){if(D(c,a))return D(b,a)?1:H(a2(b,aS(2))[2],e)?0:0;var
+g=a2(c,aS(2)),h=g[1];if(H(g[2],e)){if(D(b,a))return 0;var
+d=a2(b,aS(2)),k=d[1];if(H(d[2],e)){var
+c=h,b=k;continue}return 0}if(D(b,a))return 0;var
+f=a2(b,aS(2)),l=f[1];if(H(f[2],e))return 0;var
+c=h,b=l;continue}}function
+g7(b,a){return 2<=mB(b,a)?0:1}function
+eG(i,d,b){if(i){var
+f=i[1];if(D(d,a))return[0,a,[0,a,b]];var
+w=a2(d,aS(2)),g=w[1];if(H(w[2],e)){if(D(b,a))return[0,a,[0,d,a]];var
+m=a2(b,aS(2)),A=m[1];if(H(m[2],e)){var
+j=eG(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
+k=eG(f,g,b),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(D(b,a))return[0,a,[0,d,a]];var
+v=a2(b,aS(2)),h=v[1];if(H(v[2],e)){var
+n=eG(f,d,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(mB(g,h)){case
+0:return[0,d,[0,a,a]];case
 1:var
-p=eB(f,mu(h,g),e),q=p[2],r=q[2],C=[0,r,G(r,c(2,q[1]))];return[0,p[1],C];default:var
-s=eB(f,mu(g,h),a),t=s[2],u=t[2],E=[0,G(u,c(2,t[1])),u];return[0,s[1],E]}}return[0,b,[0,e,a]]}function
-g0(b,a){var
-c=gW(a);return eB(O(gW(b),c),b,a)}function
-mw(c,i,h){var
-e=i,a=h;for(;;){if(D(e,b))return a;var
-f=a1(e,aQ(2)),g=f[1];if(H(f[2],d)){var
-e=g,a=at(c,a,a);continue}return at(c,a,mw(c,g,at(c,a,a)))}}function
-fB(a){return mw(O,a,us)}function
-mx(a){return a?r(mx(a[1])):b}function
-cN(f,e){var
-a=f,d=e;for(;;)if(typeof
-a==="number")return d;else
-switch(a[0]){case
+p=eG(f,mA(h,g),d),q=p[2],r=q[2],C=[0,r,G(r,c(2,q[1]))];return[0,p[1],C];default:var
+s=eG(f,mA(g,h),b),t=s[2],u=t[2],E=[0,G(u,c(2,t[1])),u];return[0,s[1],E]}}return[0,a,[0,d,b]]}function
+g8(b,a){var
+c=g4(a);return eG(P(g4(b),c),b,a)}function
+mC(c,i,h){var
+d=i,b=h;for(;;){if(D(d,a))return b;var
+f=a2(d,aS(2)),g=f[1];if(H(f[2],e)){var
+d=g,b=au(c,b,b);continue}return au(c,b,mC(c,g,au(c,b,b)))}}function
+fF(a){return mC(P,a,uI)}function
+mD(b){return b?s(mD(b[1])):a}function
+cO(f,e){var
+b=f,d=e;for(;;)if(typeof
+b==="number")return d;else
+switch(b[0]){case
 0:var
-g=E(c(2,r(c(2,c(2,b)))),d),a=a[1],d=g;continue;case
+g=E(c(2,s(c(2,c(2,a)))),d),b=b[1],d=g;continue;case
 1:var
-h=G(b,E(c(2,r(c(2,c(2,b)))),d)),a=a[1],d=h;continue;case
+h=G(a,E(c(2,s(c(2,c(2,a)))),d)),b=b[1],d=h;continue;case
 2:var
-i=E(c(2,r(c(2,c(2,b)))),d),j=G(c(2,b),i),a=a[1],d=j;continue;case
+i=E(c(2,s(c(2,c(2,a)))),d),j=G(c(2,a),i),b=b[1],d=j;continue;case
 3:var
-k=E(c(2,r(c(2,c(2,b)))),d),l=G(r(c(2,b)),k),a=a[1],d=l;continue;case
+k=E(c(2,s(c(2,c(2,a)))),d),l=G(s(c(2,a)),k),b=b[1],d=l;continue;case
 4:var
-m=E(c(2,r(c(2,c(2,b)))),d),n=G(c(2,c(2,b)),m),a=a[1],d=n;continue;case
+m=E(c(2,s(c(2,c(2,a)))),d),n=G(c(2,c(2,a)),m),b=b[1],d=n;continue;case
 5:var
-o=E(c(2,r(c(2,c(2,b)))),d),p=G(r(c(2,c(2,b))),o),a=a[1],d=p;continue;case
+o=E(c(2,s(c(2,c(2,a)))),d),p=G(s(c(2,c(2,a))),o),b=b[1],d=p;continue;case
 6:var
-q=E(c(2,r(c(2,c(2,b)))),d),s=G(c(2,r(c(2,b))),q),a=a[1],d=s;continue;case
+q=E(c(2,s(c(2,c(2,a)))),d),r=G(c(2,s(c(2,a))),q),b=b[1],d=r;continue;case
 7:var
-t=E(c(2,r(c(2,c(2,b)))),d),u=G(r(c(2,r(c(2,b)))),t),a=a[1],d=u;continue;case
+t=E(c(2,s(c(2,c(2,a)))),d),u=G(s(c(2,s(c(2,a)))),t),b=b[1],d=u;continue;case
 8:var
-v=E(c(2,r(c(2,c(2,b)))),d),w=G(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
-x=E(c(2,r(c(2,c(2,b)))),d),y=G(r(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
-jd(a){if(D(a,b))return ut;var
-c=a1(a,aQ(2)),e=c[1];return H(c[2],d)?b3(jd(e)):b4(jd(e))}function
-g1(a){return gS(jd(a))}function
-my(c,b){var
-a=ma(c,b);return 0===a?0:0<=a?2:1}function
-mz(b,a){return 0<a0(b)?0<a0(a)?gY(b,a):0:0<a0(a)?0:1}function
-mA(b,a){return 2<=my(b,a)?0:1}function
-g2(b,a){return 1===my(b,a)?1:0}var
-mB=G,uv=U;function
-cm(k,f){if(0<=a0(f)){var
-g=i9(f);if(0<=g){var
-e=b,c=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=E(c,c),j=1===(a&1)?E(e,c):e,e=j,c=i,a=h;continue}}return gR(un)}return d}function
-je(c,b){var
-a=ma(c,b);return 0===a?0:0<=a?2:1}function
-jf(c){var
-a=a0(c);return 0===a?d:0<a?b:U(b)}function
-jg(a){return 0<=a0(a)?a:d}function
-eC(a){var
-c=a0(a);return 0===c?b:0<c?a:b}function
-mC(m){var
-a=m;for(;;)if(typeof
-a==="number")return d;else
-switch(a[0]){case
+v=E(c(2,s(c(2,c(2,a)))),d),w=G(c(2,c(2,c(2,a))),v),b=b[1],d=w;continue;default:var
+x=E(c(2,s(c(2,c(2,a)))),d),y=G(s(c(2,c(2,c(2,a)))),x),b=b[1],d=y;continue}}function
+ji(b){if(D(b,a))return uJ;var
+c=a2(b,aS(2)),d=c[1];return H(c[2],e)?b6(ji(d)):b7(ji(d))}function
+g9(a){return gY(ji(a))}function
+mE(c,b){var
+a=mh(c,b);return 0===a?0:0<=a?2:1}function
+mF(b,a){return 0<a1(b)?0<a1(a)?g6(b,a):0:0<a1(a)?0:1}function
+mG(b,a){return 2<=mE(b,a)?0:1}function
+fG(b,a){return 1===mE(b,a)?1:0}var
+mH=G,uL=W;function
+cp(k,f){if(0<=a1(f)){var
+g=jd(f);if(0<=g){var
+d=a,c=k,b=g;for(;;){if(0===b)return d;var
+h=b>>>1|0,i=E(c,c),j=1===(b&1)?E(d,c):d,d=j,c=i,b=h;continue}}return gX(uD)}return e}function
+jj(c,b){var
+a=mh(c,b);return 0===a?0:0<=a?2:1}function
+jk(c){var
+b=a1(c);return 0===b?e:0<b?a:W(a)}function
+jl(a){return 0<=a1(a)?a:e}function
+eH(b){var
+c=a1(b);return 0===c?a:0<c?b:a}function
+mI(m){var
+b=m;for(;;)if(typeof
+b==="number")return e;else
+switch(b[0]){case
 0:var
-a=a[1];continue;case
-1:return cN(a[1],b);case
+b=b[1];continue;case
+1:return cO(b[1],a);case
 2:var
-e=c(2,b);return cN(a[1],e);case
+d=c(2,a);return cO(b[1],d);case
 3:var
-f=r(c(2,b));return cN(a[1],f);case
+f=s(c(2,a));return cO(b[1],f);case
 4:var
-g=c(2,c(2,b));return cN(a[1],g);case
+g=c(2,c(2,a));return cO(b[1],g);case
 5:var
-h=r(c(2,c(2,b)));return cN(a[1],h);case
+h=s(c(2,c(2,a)));return cO(b[1],h);case
 6:var
-i=c(2,r(c(2,b)));return cN(a[1],i);case
+i=c(2,s(c(2,a)));return cO(b[1],i);case
 7:var
-j=r(c(2,r(c(2,b))));return cN(a[1],j);case
+j=s(c(2,s(c(2,a))));return cO(b[1],j);case
 8:var
-k=c(2,c(2,c(2,b)));return cN(a[1],k);default:var
-l=r(c(2,c(2,c(2,b))));return cN(a[1],l)}}function
-cO(b,a){var
-c=a0(a);return 0===c?d:1===c?mb(b,a):mm(-1,mb(mm(-1,b),a))}function
-mD(a){var
-f=a0(a);if(0===f)return d;if(0<f){if(D(a,b))return d;var
-c=a1(a,aQ(2)),e=c[1];return H(c[2],d)?gX(e):gX(e)}return d}function
-g3(a){return 0<a0(a)?LX(a):d}function
-fC(b,c){var
-a=i9(c);return 0<=a?uf(b,a):ug(b,-a|0)}function
-dO(b,c){var
-a=i9(c);return 0<=a?ug(b,a):uf(b,-a|0)}function
-bG(b,a){return a?a[1]:b}function
-bx(a){var
+k=c(2,c(2,c(2,a)));return cO(b[1],k);default:var
+l=s(c(2,c(2,c(2,a))));return cO(b[1],l)}}function
+cP(b,a){var
+c=a1(a);return 0===c?e:1===c?mi(b,a):mt(-1,mi(mt(-1,b),a))}function
+mJ(b){var
+f=a1(b);if(0===f)return e;if(0<f){if(D(b,a))return e;var
+c=a2(b,aS(2)),d=c[1];return H(c[2],e)?g5(d):g5(d)}return e}function
+g_(a){return 0<a1(a)?Mj(a):e}function
+fH(b,c){var
+a=jd(c);return 0<=a?uv(b,a):uw(b,-a|0)}function
+dP(b,c){var
+a=jd(c);return 0<=a?uw(b,a):uv(b,-a|0)}function
+bz(b,a){return a?a[1]:b}function
+bp(a){var
 b=a?a[2]:a;return b}function
 q(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
@@ -1007,29 +1007,29 @@ F(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-eD(d,c){var
+eI(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-cP(a){if(a){var
-b=cP(a[2]);return g(a[1],b)}return a}function
-jh(g,f,e){var
+cQ(a){if(a){var
+b=cQ(a[2]);return g(a[1],b)}return a}function
+jm(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=at(g,b[1],a[1]);if(c){var
+c=au(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-e(b,a){if(a)var
-d=e(b,a[2]),c=[0,h(b,a[1]),d];else
+d(b,a){if(a)var
+e=d(b,a[2]),c=[0,h(b,a[1]),e];else
 var
 c=a;return c}function
 y(b,a){if(a){var
 c=y(b,a[2]);return g(h(b,a[1]),c)}return a}function
-by(e,d,c){var
+bA(e,d,c){var
 a=d,b=c;for(;;){if(a){var
-f=at(e,b,a[1]),a=a[2],b=f;continue}return b}}function
-am(c,b,a){if(a){var
-d=am(c,b,a[2]);return at(c,a[1],d)}return b}function
+f=au(e,b,a[1]),a=a[2],b=f;continue}return b}}function
+an(c,b,a){if(a){var
+d=an(c,b,a[2]);return au(c,a[1],d)}return b}function
 ag(e,d){var
 a=d;for(;;){if(a){var
 b=h(e,a[1]);if(!b){var
@@ -1037,141 +1037,152 @@ a=a[2];continue}var
 c=b}else
 var
 c=a;return c}}function
-l(d,c){var
+k(d,c){var
 a=c;for(;;){if(a){var
 b=h(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-aW(b,e){var
+aP(b,e){var
 a=e;for(;;){if(a){var
-c=a[2],d=a[1];if(h(b,d))return[0,d,aW(b,c)];var
+c=a[2],d=a[1];if(h(b,d))return[0,d,aP(b,c)];var
 a=c;continue}return a}}function
-mE(d,c){var
+mK(d,c){var
 a=c;for(;;){if(a){var
 b=a[1];if(h(d,b))return[0,b];var
 a=a[2];continue}return a}}function
-N(b,a){if(b)if(a)var
-d=N(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+M(b,a){if(b)if(a)var
+d=M(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-aq(b,a){if(b)if(a)var
-d=aq(b[1],a[2]),c=[0,a[1],d];else
+ap(b,a){if(b)if(a)var
+d=ap(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-az(d,c){var
+aw(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
-aA(b,a){var
-c=a?[0,b,aA([0,b],a[1])]:a;return c}function
-$(b,a){var
-c=a?[0,b,$(b,a[1])]:a;return c}function
-mF(a){return am(O,0,a)}function
-mG(a){if(a){var
-e=mG(a[2]),f=E(c(2,b),e),g=a[1]?b:d;return G(g,f)}return d}function
-mH(j){function
+mL(d,h){var
+b=h;a:for(;;){if(b){var
+c=b[2],e=b[1],a=c;for(;;){if(a){if(!au(d,a[1],e)){var
+a=a[2];continue}var
+f=1}else
+var
+f=a;if(f){var
+b=c;continue a}var
+g=[0,e,mL(d,c)];break}}else
+var
+g=b;return g}}function
+ax(b,a){var
+c=a?[0,b,ax([0,b],a[1])]:a;return c}function
+X(b,a){var
+c=a?[0,b,X(b,a[1])]:a;return c}function
+mM(a){return an(P,0,a)}function
+mN(b){if(b){var
+d=mN(b[2]),f=E(c(2,a),d),g=b[1]?a:e;return G(g,f)}return e}function
+mO(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=mG([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a0(b)?fB(b):0}function
-mI(c,b){var
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=mN([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a1(b)?fF(b):0}function
+mP(c,b){var
 a=c-b|0,d=0<=a?0===a?0:2:1;return 2<=d?0:1}function
-mJ(a){return[0,a,b]}function
-eE(b,a){return je(E(b[1],a[2]),E(a[1],b[2]))?0:1}function
-bp(b,a){return D(E(b[1],a[2]),E(a[1],b[2]))}function
-dP(b,a){return[0,G(E(b[1],a[2]),E(a[1],b[2])),E(b[2],a[2])]}function
+mQ(b){return[0,b,a]}function
+eJ(b,a){return jj(E(b[1],a[2]),E(a[1],b[2]))?0:1}function
+bq(b,a){return D(E(b[1],a[2]),E(a[1],b[2]))}function
+dQ(b,a){return[0,G(E(b[1],a[2]),E(a[1],b[2])),E(b[2],a[2])]}function
 bb(b,a){return[0,E(b[1],a[1]),E(b[2],a[2])]}function
-g4(a){return[0,U(a[1]),a[2]]}function
-dQ(b,a){return dP(b,g4(a))}function
-g5(f,c){var
-a=c[1],e=a0(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,U(c[2]),U(a)];return bb(f,g)}function
-dR(q){var
-a=q[2],b=q[1],o=a0(b);if(0===o)var
-c=[0,cK(a),[0,d,jf(a)]];else
+g$(a){return[0,W(a[1]),a[2]]}function
+dR(b,a){return dQ(b,g$(a))}function
+ha(f,c){var
+b=c[1],d=a1(b),g=0===d?[0,e,a]:0<d?[0,c[2],b]:[0,W(c[2]),W(b)];return bb(f,g)}function
+dS(q){var
+a=q[2],b=q[1],o=a1(b);if(0===o)var
+c=[0,cL(a),[0,e,jk(a)]];else
 if(0<o){var
-n=a0(a);if(0===n)var
-c=[0,cK(b),[0,jf(b),d]];else
+n=a1(a);if(0===n)var
+c=[0,cL(b),[0,jk(b),e]];else
 if(0<n)var
-l=g0(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
+l=g8(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
-j=g0(b,U(a)),k=j[2],c=[0,j[1],[0,k[1],U(k[2])]]}else{var
-p=U(b),i=a0(a);if(0===i)var
-c=[0,cK(b),[0,jf(b),d]];else
+j=g8(b,W(a)),k=j[2],c=[0,j[1],[0,k[1],W(k[2])]]}else{var
+p=W(b),i=a1(a);if(0===i)var
+c=[0,cL(b),[0,jk(b),e]];else
 if(0<i)var
-g=g0(p,a),h=g[2],c=[0,g[1],[0,U(h[1]),h[2]]];else
+g=g8(p,a),h=g[2],c=[0,g[1],[0,W(h[1]),h[2]]];else
 var
-e=g0(p,U(a)),f=e[2],c=[0,e[1],[0,U(f[1]),U(f[2])]]}var
-r=c[2],s=eC(r[2]);return[0,r[1],s]}function
-bz(a){if(typeof
-a==="number")return ux;else
+d=g8(p,W(a)),f=d[2],c=[0,d[1],[0,W(f[1]),W(f[2])]]}var
+r=c[2],s=eH(r[2]);return[0,r[1],s]}function
+bB(a){if(typeof
+a==="number")return uN;else
 switch(a[0]){case
 0:var
-b=bz(a[1]);return bo(b2(1,48),b);case
+b=bB(a[1]);return bo(b5(1,48),b);case
 1:var
-c=bz(a[1]);return bo(b2(1,49),c);case
+c=bB(a[1]);return bo(b5(1,49),c);case
 2:var
-d=bz(a[1]);return bo(b2(1,50),d);case
+d=bB(a[1]);return bo(b5(1,50),d);case
 3:var
-e=bz(a[1]);return bo(b2(1,51),e);case
+e=bB(a[1]);return bo(b5(1,51),e);case
 4:var
-f=bz(a[1]);return bo(b2(1,52),f);case
+f=bB(a[1]);return bo(b5(1,52),f);case
 5:var
-g=bz(a[1]);return bo(b2(1,53),g);case
+g=bB(a[1]);return bo(b5(1,53),g);case
 6:var
-h=bz(a[1]);return bo(b2(1,54),h);case
+h=bB(a[1]);return bo(b5(1,54),h);case
 7:var
-i=bz(a[1]);return bo(b2(1,55),i);case
+i=bB(a[1]);return bo(b5(1,55),i);case
 8:var
-j=bz(a[1]);return bo(b2(1,56),j);default:var
-k=bz(a[1]);return bo(b2(1,57),k)}}function
-fD(a){return typeof
-a==="number"?uy:bz(a)}function
-cQ(a){return cm(c(2,b),a)}function
-mK(b,a){return dO(a,b)}function
-mL(b,a){return U(dO(U(a),b))}function
-g6(b,a){return U(cO(U(b),a))}function
-L(c,b){var
-a=fC(b,c);return[0,a,a]}function
-mM(d,c,a){var
-b=fC(c,d),e=g6(b,a);return[0,cO(b,a),e]}function
-z(b,a){return[0,G(b[1],a[1]),G(b[2],a[2])]}function
-B(b,a){return[0,aT(b[1],a[2]),aT(b[2],a[1])]}function
-Q(a){return[0,U(a[2]),U(a[1])]}function
-mN(e,c,b,a){if(D(d,e))return D(d,b)?[0,E(e,b),E(c,a)]:D(a,d)?[0,E(c,b),E(e,a)]:[0,E(c,b),E(c,a)];if(D(c,d))return D(d,b)?[0,E(e,a),E(c,b)]:D(a,d)?[0,E(c,a),E(e,b)]:[0,E(e,a),E(e,b)];if(D(d,b))return[0,E(e,a),E(c,a)];if(D(a,d))return[0,E(c,b),E(e,b)];var
-f=bw(E(e,b),E(c,a));return[0,jb(E(e,a),E(c,b)),f]}function
-s(c,b,a){var
-d=mN(b[1],b[2],a[1],a[2]),e=mL(c,d[2]);return[0,mK(c,d[1]),e]}function
-P(b,a){var
-c=E(a[1],a[1]),e=E(a[2],a[2]),h=mL(b,bw(c,e)),g=0;if(I(a[1],d)&&I(d,a[2])){var
-f=d;g=1}if(!g)var
-f=mK(b,jb(c,e));return[0,f,h]}function
-g7(b,a){var
-c=fC(cQ(b),b),d=g6(c,a[1]);return[0,cO(c,a[2]),d]}function
-bN(b,a){if(I(d,a[1]))return[0,g7(b,a)];var
-c=I(a[2],d),e=c?[0,Q(g7(b,Q(a)))]:c;return e}function
-ji(c){var
-a=g3(c);return H(E(a,a),c)?a:G(a,b)}function
-cn(b,a){var
-c=I(d,a[1]);if(c)var
-f=ji(fC(a[2],b)),e=[0,[0,g3(fC(a[1],b)),f]];else
+j=bB(a[1]);return bo(b5(1,56),j);default:var
+k=bB(a[1]);return bo(b5(1,57),k)}}function
+fI(a){return typeof
+a==="number"?uO:bB(a)}function
+cR(b){return cp(c(2,a),b)}function
+mR(b,a){return dP(a,b)}function
+mS(b,a){return W(dP(W(a),b))}function
+hb(b,a){return W(cP(W(b),a))}function
+J(c,b){var
+a=fH(b,c);return[0,a,a]}function
+mT(d,c,a){var
+b=fH(c,d),e=hb(b,a);return[0,cP(b,a),e]}function
+w(b,a){return[0,G(b[1],a[1]),G(b[2],a[2])]}function
+B(b,a){return[0,aX(b[1],a[2]),aX(b[2],a[1])]}function
+N(a){return[0,W(a[2]),W(a[1])]}function
+mU(d,c,b,a){if(D(e,d))return D(e,b)?[0,E(d,b),E(c,a)]:D(a,e)?[0,E(c,b),E(d,a)]:[0,E(c,b),E(c,a)];if(D(c,e))return D(e,b)?[0,E(d,a),E(c,b)]:D(a,e)?[0,E(c,a),E(d,b)]:[0,E(d,a),E(d,b)];if(D(e,b))return[0,E(d,a),E(c,a)];if(D(a,e))return[0,E(c,b),E(d,b)];var
+f=by(E(d,b),E(c,a));return[0,jh(E(d,a),E(c,b)),f]}function
+r(c,b,a){var
+d=mU(b[1],b[2],a[1],a[2]),e=mS(c,d[2]);return[0,mR(c,d[1]),e]}function
+Q(b,a){var
+c=E(a[1],a[1]),d=E(a[2],a[2]),h=mS(b,by(c,d)),g=0;if(I(a[1],e)&&I(e,a[2])){var
+f=e;g=1}if(!g)var
+f=mR(b,jh(c,d));return[0,f,h]}function
+hc(b,a){var
+c=fH(cR(b),b),d=hb(c,a[1]);return[0,cP(c,a[2]),d]}function
+bP(b,a){if(I(e,a[1]))return[0,hc(b,a)];var
+c=I(a[2],e),d=c?[0,N(hc(b,N(a)))]:c;return d}function
+jn(c){var
+b=g_(c);return H(E(b,b),c)?b:G(b,a)}function
+cq(b,a){var
+c=I(e,a[1]);if(c)var
+f=jn(fH(a[2],b)),d=[0,[0,g_(fH(a[1],b)),f]];else
 var
-e=c;return e}function
-eF(a){return 0===a[0]?a[2]:a[1]}function
-aL(f,d,c,b,a){if(b){if(a){var
-g=aL(f,d,c,b[2],a[2]);return[0,at(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
-da(b,a){return dO(b,a)}function
-aH(a,c,b){if(D(d,a)){var
-e=b[1],f=U(da(U(E(a,b[2])),c));return[0,da(E(a,e),c),f]}var
-g=b[2],h=U(da(U(E(a,b[1])),c));return[0,da(E(a,g),c),h]}function
-an(a){var
-c=U(dO(U(a[2]),b));return[0,dO(a[1],b),c]}function
-co(c,b,a){var
-e=mN(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=I(f,d)?a[2]:a[1],i=g6(f,h),j=I(g,d)?a[1]:a[2];return[0,cO(g,j),i]}function
-bO(a){return bw(a[2],U(a[1]))}var
-t=[0,d,d];function
-bA(a){return[0,a[1],a[1]]}function
-b5(a){return[0,a[2],a[2]]}function
-b6(b,a){switch(a[0]){case
+d=c;return d}function
+eK(a){return 0===a[0]?a[2]:a[1]}function
+aJ(f,e,c,b,a){if(b){if(a){var
+g=aJ(f,e,c,b[2],a[2]);return[0,au(c,b[1],a[1]),g]}return d(f,b)}return d(e,a)}function
+dj(b,a){return dP(b,a)}function
+aB(a,c,b){if(D(e,a)){var
+d=b[1],f=W(dj(W(E(a,b[2])),c));return[0,dj(E(a,d),c),f]}var
+g=b[2],h=W(dj(W(E(a,b[1])),c));return[0,dj(E(a,g),c),h]}function
+aj(b){var
+c=W(dP(W(b[2]),a));return[0,dP(b[1],a),c]}function
+b8(c,b,a){var
+d=mU(c[1],c[2],b[1],b[2]),f=d[2],g=d[1],h=I(f,e)?a[2]:a[1],i=hb(f,h),j=I(g,e)?a[1]:a[2];return[0,cP(g,j),i]}function
+bQ(a){return by(a[2],W(a[1]))}var
+t=[0,e,e];function
+br(a){return[0,a[1],a[1]]}function
+bR(a){return[0,a[2],a[2]]}function
+b9(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
@@ -1187,68 +1198,68 @@ f=h(b,a[2]);return[7,h(b,a[1]),f];case
 8:return[8,h(b,a[1])];case
 9:return[9,h(b,a[1])];default:var
 g=h(b,a[4]),i=h(b,a[3]),j=h(b,a[2]);return[10,a[1],j,i,g]}}function
-a2(o,n){var
+a3(o,n){var
 d=o,c=n;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
 0:return 0===a[0]?m(b[1],a[1]):0;case
 1:return 1===a[0]?m(b[1],a[1]):0;case
 2:return 2===a[0]?H(b[1],a[1]):0;case
 3:if(3===a[0]){var
-f=a2(b[1],a[1]);if(f){var
+f=a3(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 4:if(4===a[0]){var
-g=a2(b[1],a[1]);if(g){var
+g=a3(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-h=a2(b[1],a[1]);if(h){var
+h=a3(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 7:if(7===a[0]){var
-i=a2(b[1],a[1]);if(i){var
+i=a3(b[1],a[1]);if(i){var
 d=b[2],c=a[2];continue}return i}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 9:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(10===a[0]){var
-j=cM(b[1],a[1]);if(j){var
-k=a2(b[2],a[2]);if(k){var
-l=a2(b[3],a[3]);if(l){var
+j=cN(b[1],a[1]);if(j){var
+k=a3(b[2],a[2]);if(k){var
+l=a3(b[3],a[3]);if(l){var
 d=b[4],c=a[4];continue}var
 e=l}else
 var
 e=k}else
 var
 e=j;return e}return 0}}}function
-g8(b){var
+hd(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
 bf(c,b){var
-a=g8(b);return a?H(c,a[1]):a}function
-fE(a){return I(cK(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
+a=hd(b);return a?H(c,a[1]):a}function
+fJ(b){return I(cL(b),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,a))))))))))))))))}function
 n(a){return[0,[2,a]]}function
-C(b,a){if(bf(d,b))return a;if(bf(d,a))return b;var
-c=g8(b);if(c){var
-e=c[1],f=g8(a);if(f){var
-g=f[1];if(fE(e)&&fE(g))return n(G(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-bB(a){var
+C(b,a){if(bf(e,b))return a;if(bf(e,a))return b;var
+c=hd(b);if(c){var
+d=c[1],f=hd(a);if(f){var
+g=f[1];if(fJ(d)&&fJ(g))return n(G(d,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+bC(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return fE(c)?n(U(c)):[0,[5,a]];case
+c=b[1];return fJ(c)?n(W(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-A(b,a){if(bf(d,a))return b;if(bf(d,b))return bB(a);var
+A(b,a){if(bf(e,a))return b;if(bf(e,b))return bC(a);var
 c=b[1];if(0===c[0]){var
-e=a[1];return 0===e[0]?m(c[1],e[1])?n(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
-X(a){var
-c=g8(a);if(c){var
-b=c[1];return fE(b)?n(E(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-u(a,c){if(!bf(d,a)&&!bf(b,c)){if(!bf(d,c)&&!bf(b,a))return a2(a,c)?X(a):[0,[6,a,c]];return c}return a}function
-aj(c,a){return bf(b,a)?c:[0,[7,c,a]]}function
-aO(a){return bf(b,a)?a:[0,[9,a]]}function
-mO(d,c,b,a){return[0,[10,d,c,b,a]]}function
-eG(b,a){if(a){var
+d=a[1];return 0===d[0]?m(c[1],d[1])?n(e):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
+_(a){var
+c=hd(a);if(c){var
+b=c[1];return fJ(b)?n(E(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+u(b,c){if(!bf(e,b)&&!bf(a,c)){if(!bf(e,c)&&!bf(a,b))return a3(b,c)?_(b):[0,[6,b,c]];return c}return b}function
+ak(c,b){return bf(a,b)?c:[0,[7,c,b]]}function
+aQ(b){return bf(a,b)?b:[0,[9,b]]}function
+mV(d,c,b,a){return[0,[10,d,c,b,a]]}function
+eL(b,a){if(a){var
 c=a[3];if(c){var
 d=a[1];return m(d,c[1])?[0,[0,d],[1,b,a[2],c[2]],c[3]]:[0,0,[0,b],a]}return[0,0,[0,b],a]}return[0,0,[0,b],a]}function
-jj(g,f,e){var
+jo(g,f,e){var
 c=f,d=e;for(;;){if(d){if(typeof
 c!=="number"&&2===c[0]){var
 c=c[1],d=d[3];continue}var
@@ -1258,34 +1269,34 @@ b!=="number")switch(b[0]){case
 b=b[1],a=a[2];continue;case
 1:var
 b=b[1],a=a[3];continue}return a[1]}}return g}}function
-jk(a,b){if(0===a[0])return[0,a[1],b];var
-c=jk(a[3],b),d=jk(a[2],c);return[0,a[1],d]}function
-jl(a){if(a){var
-b=jl(a[3]);return jk(a[2],b)}return a}function
-mP(a){if(a){var
+jp(a,b){if(0===a[0])return[0,a[1],b];var
+c=jp(a[3],b),d=jp(a[2],c);return[0,a[1],d]}function
+jq(a){if(a){var
+b=jq(a[3]);return jp(a[2],b)}return a}function
+mW(a){if(a){var
 c=a[3],b=a[2],d=a[1];if(0===b[0])return[0,[0,b[1],c]];var
-e=b[3],f=[0,aU(d),e,c],g=b[2],h=[0,aU(d),g,f];return[0,[0,b[1],h]]}return a}function
-jm(c,b,a){if(0===a[0])return[0,c];var
+e=b[3],f=[0,aY(d),e,c],g=b[2],h=[0,aY(d),g,f];return[0,[0,b[1],h]]}return a}function
+jr(c,b,a){if(0===a[0])return[0,c];var
 d=a[3],e=a[2],f=a[1];if(typeof
 b!=="number")switch(b[0]){case
-0:return[1,f,jm(c,b[1],e),d];case
-1:return[1,f,e,jm(c,b[1],d)]}return[1,c,e,d]}function
-mQ(c,b,a){if(a){var
+0:return[1,f,jr(c,b[1],e),d];case
+1:return[1,f,e,jr(c,b[1],d)]}return[1,c,e,d]}function
+mX(c,b,a){if(a){var
 d=a[3],e=a[2],f=a[1];if(typeof
-b!=="number"&&2===b[0])return[0,f,e,mQ(c,b[1],d)];var
-g=[0,f,jm(c,b,e),d]}else
+b!=="number"&&2===b[0])return[0,f,e,mX(c,b[1],d)];var
+g=[0,f,jr(c,b,e),d]}else
 var
 g=a;return g}function
-cR(g,f,e){var
+cS(g,f,e){var
 b=e,a=0;for(;;){if(b){var
-c=b[1],d=eG(h(f,b6(function(b){return function(a){return jj(g,a,b)}}(a),c)),a),b=b[2],a=d;continue}return jl(a)}}function
-db(e,g,m,l){var
+c=b[1],d=eL(h(f,b9(function(b){return function(a){return jo(g,a,b)}}(a),c)),a),b=b[2],a=d;continue}return jq(a)}}function
+dk(e,g,m,l){var
 b=m,c=l,a=0;for(;;){if(c){var
 d=c[2],f=c[1];if(b){if(b[1]){var
-i=eG(h(g,b6(function(b){return function(a){return jj(e,a,b)}}(a),f)),a),b=bx(b),c=d,a=i;continue}var
-j=eG(e,a),b=b[2],c=d,a=j;continue}var
-k=eG(h(g,b6(function(b){return function(a){return jj(e,a,b)}}(a),f)),a),b=bx(b),c=d,a=k;continue}return jl(a)}}function
-mR(a){switch(a[0]){case
+i=eL(h(g,b9(function(b){return function(a){return jo(e,a,b)}}(a),f)),a),b=bp(b),c=d,a=i;continue}var
+j=eL(e,a),b=b[2],c=d,a=j;continue}var
+k=eL(h(g,b9(function(b){return function(a){return jo(e,a,b)}}(a),f)),a),b=bp(b),c=d,a=k;continue}return jq(a)}}function
+mY(a){switch(a[0]){case
 10:return[0,a[2],[0,a[3],[0,a[4],0]]];case
 5:case
 8:case
@@ -1293,137 +1304,137 @@ mR(a){switch(a[0]){case
 0:case
 1:case
 2:return 0;default:return[0,a[1],[0,a[2],0]]}}var
-uz=1;function
-mS(a,b){return mQ(uz,a,b)}function
-mT(e,c){if(c){var
+uP=1;function
+mZ(a,b){return mX(uP,a,b)}function
+m0(e,c){if(c){var
 f=c[2],g=c[1],b=g,a=e;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}var
 d=[0,b]}else
 var
 d=[1,a];if(0===d[0])return[0,e,[0,d[1],f]];var
-h=d[1];return h?[0,g,mT(h,f)]:c}}return[0,e,0]}function
-g9(c,b){if(b){var
+h=d[1];return h?[0,g,m0(h,f)]:c}}return[0,e,0]}function
+he(c,b){if(b){var
 d=b[2];if(c){var
-a=c[2],e=c[1];if(e)return[0,0,g9([0,e[1],a],d)];if(a)var
-h=a[2],f=[0,aU(a[1]),h];else
+a=c[2],e=c[1];if(e)return[0,0,he([0,e[1],a],d)];if(a)var
+h=a[2],f=[0,aY(a[1]),h];else
 var
-f=a;return[0,1,g9(f,d)]}var
-g=[0,0,g9(0,d)]}else
+f=a;return[0,1,he(f,d)]}var
+g=[0,0,he(0,d)]}else
 var
 g=b;return g}function
-mU(b,a){var
-c=0;return am(eG,0,g9(by(function(b,a){return mT(a,b)},b,c),a))}function
-cp(k,h){var
-l=mU(k,h),b=eD(h,0),c=l,a=0;for(;;){if(b){var
-d=mP(c);if(d){var
-e=d[1],f=e[2],g=e[1],i=[0,g,a],j=g?am(mS,f,mR(b[1])):f,b=b[2],c=j,a=i;continue}return a}return a}}function
-dc(a){function
-b(a){return[0,a]}return cR(n(d),b,a)}function
-R(a){switch(a[0]){case
+m1(b,a){var
+c=0;return an(eL,0,he(bA(function(b,a){return m0(a,b)},b,c),a))}function
+bD(k,h){var
+l=m1(k,h),b=eI(h,0),c=l,a=0;for(;;){if(b){var
+d=mW(c);if(d){var
+e=d[1],f=e[2],g=e[1],i=[0,g,a],j=g?an(mZ,f,mY(b[1])):f,b=b[2],c=j,a=i;continue}return a}return a}}function
+dl(a){function
+b(a){return[0,a]}return cS(n(e),b,a)}function
+S(a){switch(a[0]){case
 0:return 0;case
-1:return uA;case
-2:return uB;case
-3:return uC;case
-4:return uD;case
-5:return uE;case
-6:return uF;case
-7:return uG;case
-8:return uH;case
-9:return uI;default:return uJ}}function
-a8(J,I,H){var
+1:return uQ;case
+2:return uR;case
+3:return uS;case
+4:return uT;case
+5:return uU;case
+6:return uV;case
+7:return uW;case
+8:return uX;case
+9:return uY;default:return uZ}}function
+a_(J,I,H){var
 e=J,g=I,f=H;for(;;){if(e){var
 j=e[1];if(j){var
-a=f[1],c=g[1],h=x(aU,e);switch(c[0]){case
-0:if(0===a[0])return ay(c[1],a[1]);var
-K=R(a);return ay(R(c),K);case
-1:if(1===a[0])return ay(c[1],a[1]);var
-L=R(a);return ay(R(c),L);case
-2:if(2===a[0])return je(c[1],a[1]);var
-M=R(a);return ay(R(c),M);case
+a=f[1],c=g[1],h=x(aY,e);switch(c[0]){case
+0:if(0===a[0])return aA(c[1],a[1]);var
+K=S(a);return aA(S(c),K);case
+1:if(1===a[0])return aA(c[1],a[1]);var
+L=S(a);return aA(S(c),L);case
+2:if(2===a[0])return jj(c[1],a[1]);var
+M=S(a);return aA(S(c),M);case
 3:if(3===a[0]){var
-k=a8(h,c[2],a[2]);if(k)return k;var
+k=a_(h,c[2],a[2]);if(k)return k;var
 e=h,g=c[1],f=a[1];continue}var
-N=R(a);return ay(R(c),N);case
+N=S(a);return aA(S(c),N);case
 4:if(4===a[0]){var
-l=a8(h,c[2],a[2]);if(l)return l;var
+l=a_(h,c[2],a[2]);if(l)return l;var
 e=h,g=c[1],f=a[1];continue}var
-O=R(a);return ay(R(c),O);case
+O=S(a);return aA(S(c),O);case
 5:if(5===a[0]){var
 e=h,g=c[1],f=a[1];continue}var
-P=R(a);return ay(R(c),P);case
+P=S(a);return aA(S(c),P);case
 6:if(6===a[0]){var
-m=a8(h,c[2],a[2]);if(m)return m;var
+m=a_(h,c[2],a[2]);if(m)return m;var
 e=h,g=c[1],f=a[1];continue}var
-Q=R(a);return ay(R(c),Q);case
+Q=S(a);return aA(S(c),Q);case
 7:if(7===a[0]){var
-n=a8(h,c[2],a[2]);if(n)return n;var
+n=a_(h,c[2],a[2]);if(n)return n;var
 e=h,g=c[1],f=a[1];continue}var
-S=R(a);return ay(R(c),S);case
+R=S(a);return aA(S(c),R);case
 8:if(8===a[0]){var
 e=h,g=c[1],f=a[1];continue}var
-T=R(a);return ay(R(c),T);case
+T=S(a);return aA(S(c),T);case
 9:if(9===a[0]){var
 e=h,g=c[1],f=a[1];continue}var
-U=R(a);return ay(R(c),U);default:var
+U=S(a);return aA(S(c),U);default:var
 o=c[4],p=c[3],q=c[2];if(c[1]){if(10===a[0]){if(a[1]){var
-r=a8(h,o,a[4]);if(r)return r;var
-s=a8(h,p,a[3]);if(s)return s;var
+r=a_(h,o,a[4]);if(r)return r;var
+s=a_(h,p,a[3]);if(s)return s;var
 e=h,g=q,f=a[2];continue}return 2}var
-V=R(a);return ay(R(c),V)}if(10===a[0]){if(a[1])return 1;var
-t=a8(h,o,a[4]);if(t)return t;var
-u=a8(h,p,a[3]);if(u)return u;var
+V=S(a);return aA(S(c),V)}if(10===a[0]){if(a[1])return 1;var
+t=a_(h,o,a[4]);if(t)return t;var
+u=a_(h,p,a[3]);if(u)return u;var
 e=h,g=q,f=a[2];continue}var
-W=R(a);return ay(R(c),W)}}return j}var
-b=f[1],d=g[1],i=x(aU,e);switch(d[0]){case
-0:if(0===b[0])return ay(d[1],b[1]);var
-X=R(b);return ay(R(d),X);case
-1:if(1===b[0])return ay(d[1],b[1]);var
-Y=R(b);return ay(R(d),Y);case
-2:if(2===b[0])return je(d[1],b[1]);var
-Z=R(b);return ay(R(d),Z);case
+W=S(a);return aA(S(c),W)}}return j}var
+b=f[1],d=g[1],i=x(aY,e);switch(d[0]){case
+0:if(0===b[0])return aA(d[1],b[1]);var
+X=S(b);return aA(S(d),X);case
+1:if(1===b[0])return aA(d[1],b[1]);var
+Y=S(b);return aA(S(d),Y);case
+2:if(2===b[0])return jj(d[1],b[1]);var
+Z=S(b);return aA(S(d),Z);case
 3:if(3===b[0]){var
-v=a8(i,d[2],b[2]);if(v)return v;var
+v=a_(i,d[2],b[2]);if(v)return v;var
 e=i,g=d[1],f=b[1];continue}var
-_=R(b);return ay(R(d),_);case
+_=S(b);return aA(S(d),_);case
 4:if(4===b[0]){var
-w=a8(i,d[2],b[2]);if(w)return w;var
+w=a_(i,d[2],b[2]);if(w)return w;var
 e=i,g=d[1],f=b[1];continue}var
-$=R(b);return ay(R(d),$);case
+$=S(b);return aA(S(d),$);case
 5:if(5===b[0]){var
 e=i,g=d[1],f=b[1];continue}var
-aa=R(b);return ay(R(d),aa);case
+aa=S(b);return aA(S(d),aa);case
 6:if(6===b[0]){var
-y=a8(i,d[2],b[2]);if(y)return y;var
+y=a_(i,d[2],b[2]);if(y)return y;var
 e=i,g=d[1],f=b[1];continue}var
-ab=R(b);return ay(R(d),ab);case
+ab=S(b);return aA(S(d),ab);case
 7:if(7===b[0]){var
-z=a8(i,d[2],b[2]);if(z)return z;var
+z=a_(i,d[2],b[2]);if(z)return z;var
 e=i,g=d[1],f=b[1];continue}var
-ac=R(b);return ay(R(d),ac);case
+ac=S(b);return aA(S(d),ac);case
 8:if(8===b[0]){var
 e=i,g=d[1],f=b[1];continue}var
-ad=R(b);return ay(R(d),ad);case
+ad=S(b);return aA(S(d),ad);case
 9:if(9===b[0]){var
 e=i,g=d[1],f=b[1];continue}var
-ae=R(b);return ay(R(d),ae);default:var
+ae=S(b);return aA(S(d),ae);default:var
 A=d[4],B=d[3],C=d[2];if(d[1]){if(10===b[0]){if(b[1]){var
-D=a8(i,A,b[4]);if(D)return D;var
-E=a8(i,B,b[3]);if(E)return E;var
+D=a_(i,A,b[4]);if(D)return D;var
+E=a_(i,B,b[3]);if(E)return E;var
 e=i,g=C,f=b[2];continue}return 2}var
-af=R(b);return ay(R(d),af)}if(10===b[0]){if(b[1])return 1;var
-F=a8(i,A,b[4]);if(F)return F;var
-G=a8(i,B,b[3]);if(G)return G;var
+af=S(b);return aA(S(d),af)}if(10===b[0]){if(b[1])return 1;var
+F=a_(i,A,b[4]);if(F)return F;var
+G=a_(i,B,b[3]);if(G)return G;var
 e=i,g=C,f=b[2];continue}var
-ag=R(b);return ay(R(d),ag)}}}function
-mV(b,a){var
-c=a8(uK,b,a);return c?c:a8(0,b,a)}function
-mW(c,b){var
-a=b;for(;;){if(a)switch(mV(c,a[3])){case
+ag=S(b);return aA(S(d),ag)}}}function
+m2(b,a){var
+c=a_(u0,b,a);return c?c:a_(0,b,a)}function
+m3(c,b){var
+a=b;for(;;){if(a)switch(m2(c,a[3])){case
 0:return[0,a[4]];case
 1:var
 a=a[2];continue;default:var
 a=a[5];continue}return a}}function
-uL(b,d,c,a){if(b){var
+u1(b,d,c,a){if(b){var
 e=b[5],s=b[4],t=b[3],l=b[2];if(b[1]){if(l){if(l[1])return[0,1,[0,0,l[2],l[3],l[4],l[5]],t,s,[0,0,e,d,c,a]];if(e){if(e[1])return[0,1,[0,0,l,t,s,e[2]],e[3],e[4],[0,0,e[5],d,c,a]];if(a){if(a[1]){var
 f=a[5],u=a[4],v=a[3],m=a[2];return m?m[1]?[0,1,[0,0,b,d,c,m[2]],m[3],m[4],[0,0,m[5],v,u,f]]:f?f[1]?[0,1,[0,0,b,d,c,m],v,u,[0,0,f[2],f[3],f[4],f[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:f?f[1]?[0,1,[0,0,b,d,c,m],v,u,[0,0,f[2],f[3],f[4],f[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}if(a){if(a[1]){var
 g=a[5],w=a[4],x=a[3],n=a[2];return n?n[1]?[0,1,[0,0,b,d,c,n[2]],n[3],n[4],[0,0,n[5],x,w,g]]:g?g[1]?[0,1,[0,0,b,d,c,n],x,w,[0,0,g[2],g[3],g[4],g[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:g?g[1]?[0,1,[0,0,b,d,c,n],x,w,[0,0,g[2],g[3],g[4],g[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}if(e){if(e[1])return[0,1,[0,0,l,t,s,e[2]],e[3],e[4],[0,0,e[5],d,c,a]];if(a){if(a[1]){var
@@ -1431,613 +1442,613 @@ h=a[5],y=a[4],z=a[3],o=a[2];return o?o[1]?[0,1,[0,0,b,d,c,o[2]],o[3],o[4],[0,0,o
 i=a[5],A=a[4],B=a[3],p=a[2];return p?p[1]?[0,1,[0,0,b,d,c,p[2]],p[3],p[4],[0,0,p[5],B,A,i]]:i?i[1]?[0,1,[0,0,b,d,c,p],B,A,[0,0,i[2],i[3],i[4],i[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:i?i[1]?[0,1,[0,0,b,d,c,p],B,A,[0,0,i[2],i[3],i[4],i[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}if(a){if(a[1]){var
 j=a[5],C=a[4],D=a[3],q=a[2];return q?q[1]?[0,1,[0,0,b,d,c,q[2]],q[3],q[4],[0,0,q[5],D,C,j]]:j?j[1]?[0,1,[0,0,b,d,c,q],D,C,[0,0,j[2],j[3],j[4],j[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:j?j[1]?[0,1,[0,0,b,d,c,q],D,C,[0,0,j[2],j[3],j[4],j[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}if(a){if(a[1]){var
 k=a[5],E=a[4],F=a[3],r=a[2];return r?r[1]?[0,1,[0,0,b,d,c,r[2]],r[3],r[4],[0,0,r[5],F,E,k]]:k?k[1]?[0,1,[0,0,b,d,c,r],F,E,[0,0,k[2],k[3],k[4],k[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:k?k[1]?[0,1,[0,0,b,d,c,r],F,E,[0,0,k[2],k[3],k[4],k[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}function
-jn(b,c,a){if(a){var
-e=a[5],f=a[4],d=a[3],g=a[2],h=a[1]?function(d,c,b,a){return[0,1,d,c,b,a]}:uL;switch(mV(b,d)){case
+js(b,c,a){if(a){var
+e=a[5],f=a[4],d=a[3],g=a[2],h=a[1]?function(d,c,b,a){return[0,1,d,c,b,a]}:u1;switch(m2(b,d)){case
 0:return a;case
-1:return h(jn(b,c,g),d,f,e);default:return h(g,d,f,jn(b,c,e))}}return[0,1,0,b,c,0]}function
-mX(d,c,b){var
-a=jn(d,c,b),e=a?[0,0,a[2],a[3],a[4],a[5]]:a;return e}function
-cS(a){var
-b=by(function(a,b){var
-c=mX(b,a[1],a[2]);return[0,[0,a[1]],c]},a,uM)[2];return function(c){var
-a=mW(c,b),d=a?a[1]:a;return d}}function
-jo(b,a){if(0===a[0])return 0;var
-c=a[3];return H(b,a[1])?0:D(b,c[1])?[1,jo(b,c)]:[0,jo(b,a[2])]}function
-mY(c,a){if(a){var
-b=a[3],d=b?D(c,b[2][1]):b;return d?[2,mY(c,b)]:jo(c,a[2])}return a}function
-dS(k,d){var
-n=mW(k,d[1]);if(n)return[0,n[1],d];var
-a=k[1],e=0;switch(a[0]){case
+1:return h(js(b,c,g),d,f,e);default:return h(g,d,f,js(b,c,e))}}return[0,1,0,b,c,0]}function
+m4(d,c,b){var
+a=js(d,c,b),e=a?[0,0,a[2],a[3],a[4],a[5]]:a;return e}function
+cT(a){var
+b=bA(function(a,b){var
+c=m4(b,a[1],a[2]);return[0,[0,a[1]],c]},a,u2)[2];return function(c){var
+a=m3(c,b),d=a?a[1]:a;return d}}function
+jt(b,a){if(0===a[0])return 0;var
+c=a[3];return H(b,a[1])?0:D(b,c[1])?[1,jt(b,c)]:[0,jt(b,a[2])]}function
+m5(c,a){if(a){var
+b=a[3],d=b?D(c,b[2][1]):b;return d?[2,m5(c,b)]:jt(c,a[2])}return a}function
+dT(k,d){var
+n=m3(k,d[1]);if(n)return[0,n[1],d];var
+b=k[1],e=0;switch(b[0]){case
 0:var
-u=a[1],f=function(a){return[0,u]},c=d;break;case
+u=b[1],f=function(a){return[0,u]},c=d;break;case
 1:var
-A=a[1],f=function(a){return[1,A]},c=d;break;case
+A=b[1],f=function(a){return[1,A]},c=d;break;case
 2:var
-B=a[1],f=function(a){return[2,B]},c=d;break;case
+B=b[1],f=function(a){return[2,B]},c=d;break;case
 3:var
-C=function(b,a){return[3,b,a]},j=C,i=a[2],g=a[1];e=1;break;case
+C=function(b,a){return[3,b,a]},j=C,i=b[2],g=b[1];e=1;break;case
 4:var
-H=function(b,a){return[4,b,a]},j=H,i=a[2],g=a[1];e=1;break;case
+H=function(b,a){return[4,b,a]},j=H,i=b[2],g=b[1];e=1;break;case
 5:var
-I=function(a){return[5,a]},m=I,l=a[1];e=2;break;case
+I=function(a){return[5,a]},m=I,l=b[1];e=2;break;case
 6:var
-L=function(b,a){return[6,b,a]},j=L,i=a[2],g=a[1];e=1;break;case
+L=function(b,a){return[6,b,a]},j=L,i=b[2],g=b[1];e=1;break;case
 7:var
-M=function(b,a){return[7,b,a]},j=M,i=a[2],g=a[1];e=1;break;case
+M=function(b,a){return[7,b,a]},j=M,i=b[2],g=b[1];e=1;break;case
 8:var
-N=function(a){return[8,a]},m=N,l=a[1];e=2;break;case
+N=function(a){return[8,a]},m=N,l=b[1];e=2;break;case
 9:var
-O=function(a){return[9,a]},m=O,l=a[1];e=2;break;default:var
-P=a[1],r=dS(a[2],d),Q=r[1],s=dS(a[3],r[2]),R=s[1],t=dS(a[4],s[2]),S=t[1],T=function(a){var
+O=function(a){return[9,a]},m=O,l=b[1];e=2;break;default:var
+P=b[1],r=dT(b[2],d),Q=r[1],s=dT(b[3],r[2]),R=s[1],t=dT(b[4],s[2]),S=t[1],T=function(a){var
 b=h(a,S),c=h(a,R);return[10,P,h(a,Q),c,b]},f=T,c=t[2]}switch(e){case
 1:var
-o=dS(g,d),D=o[1],p=dS(i,o[2]),E=p[1],F=function(a){var
+o=dT(g,d),D=o[1],p=dT(i,o[2]),E=p[1],F=function(a){var
 b=h(a,E);return j(h(a,D),b)},f=F,c=p[2];break;case
 2:var
-q=dS(l,d),J=q[1],K=function(a){return m(h(a,J))},f=K,c=q[2];break}var
-v=c[4],w=[0,f(function(a){return mY(a,c[2])}),v],x=G(c[3],b),y=eG(c[3],c[2]),z=[0,mX(k,c[3],c[1]),y,x,w];return[0,c[3],z]}function
-dd(a){var
-b=0,c=[0,0,0,d,0];return eD(by(function(b,a){return dS(a,b)[2]},a,c)[4],b)}function
-g_(a){return am(function(b,a){return G(bO(b),a)},d,a)}function
-cT(a,c,b){var
-d=g_(b),e=jb(c[2],G(a[2],d));return[0,a,[0,bw(c[1],aT(a[1],d)),e],b]}function
-_(a){return[0,a,a,0]}function
-cq(b,a){var
+q=dT(l,d),J=q[1],K=function(a){return m(h(a,J))},f=K,c=q[2];break}var
+v=c[4],w=[0,f(function(a){return m5(a,c[2])}),v],x=G(c[3],a),y=eL(c[3],c[2]),z=[0,m4(k,c[3],c[1]),y,x,w];return[0,c[3],z]}function
+dm(a){var
+b=0,c=[0,0,0,e,0];return eI(bA(function(b,a){return dT(a,b)[2]},a,c)[4],b)}function
+hf(a){return an(function(b,a){return G(bQ(b),a)},e,a)}function
+cU(a,c,b){var
+d=hf(b),e=jh(c[2],G(a[2],d));return[0,a,[0,by(c[1],aX(a[1],d)),e],b]}function
+R(a){return[0,a,a,0]}function
+cr(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=aL(function(a){return a},e,z,d,c),g=z(b[2],a[2]);return cT(z(b[1],a[1]),g,f)}function
+f=aJ(function(a){return a},e,w,d,c),g=w(b[2],a[2]);return cU(w(b[1],a[1]),g,f)}function
 bg(b,a){var
-c=a[3],d=b[3],e=aL(function(a){return a},Q,B,d,c),f=B(b[2],a[2]);return cT(B(b[1],a[1]),f,e)}function
-dT(a){var
-b=e(Q,a[3]),c=Q(a[2]);return[0,Q(a[1]),c,b]}function
-aI(a,c,b){var
-d=z(b[2],b[1]),e=z(c[2],c[1]),f=b[3],g=c[3];function
+c=a[3],d=b[3],e=aJ(function(a){return a},N,B,d,c),f=B(b[2],a[2]);return cU(B(b[1],a[1]),f,e)}function
+dU(a){var
+b=d(N,a[3]),c=N(a[2]);return[0,N(a[1]),c,b]}function
+aK(a,c,b){var
+d=w(b[2],b[1]),e=w(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=s(a,e,b);return an(z(s(a,d,c),f))}function
-i(b){return an(s(a,e,b))}var
-j=aL(function(b){return an(s(a,d,b))},i,h,g,f),k=s(a,c[2],b[2]);return cT(s(a,c[1],b[1]),k,j)}function
-eH(b,a){var
-c=a[3],d=z(a[2],a[1]),f=e(function(a){return s(b,d,a)},c),g=P(b,a[2]);return cT(P(b,a[1]),g,f)}function
-jp(a,b){var
-c=cn(a,b[1]);if(c){var
-g=c[1],d=cn(a,b[2]);if(d){var
-h=d[1],f=bN(a,z(h,g));if(f)var
-l=b[3],m=f[1],i=[0,cT(g,h,e(function(b){return s(a,m,b)},l))];else
+f=r(a,e,b);return aj(w(r(a,d,c),f))}function
+i(b){return aj(r(a,e,b))}var
+j=aJ(function(b){return aj(r(a,d,b))},i,h,g,f),k=r(a,c[2],b[2]);return cU(r(a,c[1],b[1]),k,j)}function
+eM(b,a){var
+c=a[3],e=w(a[2],a[1]),f=d(function(a){return r(b,e,a)},c),g=Q(b,a[2]);return cU(Q(b,a[1]),g,f)}function
+ju(a,b){var
+c=cq(a,b[1]);if(c){var
+g=c[1],e=cq(a,b[2]);if(e){var
+h=e[1],f=bP(a,w(h,g));if(f)var
+l=b[3],m=f[1],i=[0,cU(g,h,d(function(b){return r(a,m,b)},l))];else
 var
 i=f;var
 j=i}else
 var
-j=d;var
+j=e;var
 k=j}else
 var
 k=c;return k}function
-eI(a,c,b){var
-d=bN(a,b[1]);if(d){var
-f=bN(a,b[2]);if(f)var
-h=f[1],g=s(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return B(c,s(a,g,b))},n=function(b){return Q(s(a,g,b))},o=aL(function(a){return a},n,m,l,k),p=e(function(b){return s(a,h,b)},o),i=[0,cT(g,s(a,c[2],h),p)];else
+eN(a,c,b){var
+e=bP(a,b[1]);if(e){var
+f=bP(a,b[2]);if(f)var
+h=f[1],g=r(a,c[1],e[1]),k=b[3],l=c[3],m=function(c,b){return B(c,r(a,g,b))},n=function(b){return N(r(a,g,b))},o=aJ(function(a){return a},n,m,l,k),p=d(function(b){return r(a,h,b)},o),i=[0,cU(g,r(a,c[2],h),p)];else
 var
 i=f;var
 j=i}else
 var
-j=d;return j}function
-de(b,a){return a?h(b,a[1]):a}function
-g$(a){var
-b=e(an,a[3]),c=an(z(a[2],a[1]));return cT(a[1],c,b)}function
-mZ(a,k,j,r,c){var
-l=g$(k),m=g$(j),g=g$(c[1]),h=g$(c[2]),t=aI(a,l,h),u=bg(aI(a,m,g),t),i=eI(a,_(L(a,b)),u);if(i)var
-f=i[1],n=aI(a,bg(l,g),f),o=aI(a,bg(m,h),f),d=function(c,b){return aI(a,c,_(b))},v=j[3],w=k[3],x=function(b,a){var
-c=d(o,a);return cq(d(n,b),c)},y=function(a){return d(o,a)},z=aL(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return bg(b,d(f,an(a)))[2]},C=function(a){return dT(d(f,an(a)))[2]},p=aL(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return s(a,D,b)},p),F=cT(c[2][1],c[2][2],E),G=Q(h[2]),H=e(function(b){return s(a,G,b)},p),q=[0,[0,cT(c[1][1],c[1][2],H),F]];else
+j=e;return j}function
+dn(b,a){return a?h(b,a[1]):a}function
+hg(a){var
+b=d(aj,a[3]),c=aj(w(a[2],a[1]));return cU(a[1],c,b)}function
+m6(b,k,j,s,c){var
+l=hg(k),m=hg(j),g=hg(c[1]),h=hg(c[2]),t=aK(b,l,h),u=bg(aK(b,m,g),t),i=eN(b,R(J(b,a)),u);if(i)var
+f=i[1],n=aK(b,bg(l,g),f),o=aK(b,bg(m,h),f),e=function(c,a){return aK(b,c,R(a))},v=j[3],w=k[3],x=function(b,a){var
+c=e(o,a);return cr(e(n,b),c)},y=function(a){return e(o,a)},z=aJ(function(a){return e(n,a)},y,x,w,v),A=s[3],B=function(b,a){return bg(b,e(f,aj(a)))[2]},C=function(a){return dU(e(f,aj(a)))[2]},p=aJ(function(a){return a[2]},C,B,z,A),D=g[2],E=d(function(a){return r(b,D,a)},p),F=cU(c[2][1],c[2][2],E),G=N(h[2]),H=d(function(a){return r(b,G,a)},p),q=[0,[0,cU(c[1][1],c[1][2],H),F]];else
 var
 q=i;return q}function
-jq(a,e,d,k){var
-p=eH(a,d),f=cq(eH(a,e),p),g=bg(cq(f,_(L(a,b))),k),l=aI(a,_(L(a,c(2,b))),f),q=eH(a,g),h=jp(a,bg(aI(a,_(L(a,c(2,c(2,b)))),f),q));if(h){var
-m=h[1],r=aI(a,m,d),i=eI(a,cq(aI(a,g,e),r),l);if(i)var
-s=aI(a,m,e),j=eI(a,bg(aI(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
+jv(b,e,d,k){var
+p=eM(b,d),f=cr(eM(b,e),p),g=bg(cr(f,R(J(b,a))),k),l=aK(b,R(J(b,c(2,a))),f),q=eM(b,g),h=ju(b,bg(aK(b,R(J(b,c(2,c(2,a)))),f),q));if(h){var
+m=h[1],r=aK(b,m,d),i=eN(b,cr(aK(b,g,e),r),l);if(i)var
+s=aK(b,m,e),j=eN(b,bg(aK(b,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
 n=i;var
 o=n}else
 var
 o=h;var
-u=de(function(b){return mZ(a,e,d,k,b)},o);return de(function(b){return mZ(a,e,d,k,b)},u)}function
-cr(d,b,a){if(b){if(a)return at(d,b[1],a[1]);var
+u=dn(function(a){return m6(b,e,d,k,a)},o);return dn(function(a){return m6(b,e,d,k,a)},u)}function
+cs(d,b,a){if(b){if(a)return au(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-b7(b,j,i){var
-f=_(t);return function(a){switch(a[0]){case
+b_(b,j,i){var
+f=R(t);return function(a){switch(a[0]){case
 0:return[0,q(a[1],j,f)];case
 1:return[0,q(a[1],i,f)];case
-2:return[0,_(L(b,a[1]))];case
+2:return[0,R(J(b,a[1]))];case
 3:var
-k=a[2],l=a[1];return cr(function(b,a){return[0,cq(b,a)]},l,k);case
+k=a[2],l=a[1];return cs(function(b,a){return[0,cr(b,a)]},l,k);case
 4:var
-m=a[2],n=a[1];return cr(function(b,a){return[0,bg(b,a)]},n,m);case
+m=a[2],n=a[1];return cs(function(b,a){return[0,bg(b,a)]},n,m);case
 5:var
-o=a[1];return de(function(a){return[0,dT(a)]},o);case
+o=a[1];return dn(function(a){return[0,dU(a)]},o);case
 6:var
-p=a[2],r=a[1];return cr(function(c,a){return[0,aI(b,c,a)]},r,p);case
+p=a[2],r=a[1];return cs(function(c,a){return[0,aK(b,c,a)]},r,p);case
 7:var
-s=a[2],t=a[1];return cr(function(a,c){return eI(b,a,c)},t,s);case
+s=a[2],t=a[1];return cs(function(a,c){return eN(b,a,c)},t,s);case
 8:var
-u=a[1];return de(function(a){return[0,eH(b,a)]},u);case
+u=a[1];return dn(function(a){return[0,eM(b,a)]},u);case
 9:var
-v=a[1];return de(function(a){return jp(b,a)},v);default:var
+v=a[1];return dn(function(a){return ju(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-w=jq(b,c[1],d[1],e[1]),y=a[1]?aK:as;return x(y,w)}var
+w=jv(b,c[1],d[1],e[1]),y=a[1]?aH:ao;return x(y,w)}var
 g=e}else
 var
 g=d;var
 h=g}else
 var
 h=c;return h}}}function
-dU(c){var
+dV(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 0;case
 1:return 1;case
 6:var
 a=a[1];continue;default:var
-b=dU(a[1]);if(b)return b;var
+b=dV(a[1]);if(b)return b;var
 a=a[2];continue}}function
-cs(r,q){var
+ct(r,q){var
 b=r,a=q;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=H(b[1],a[1]);return c?gY(b[2],a[2]):c}return 0;case
+c=H(b[1],a[1]);return c?g6(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=m(b[1],a[1]),i=h?H(e[1],g[1]):h,j=i?gY(e[2],g[2]):i,k=j?H(d[1],f[1]):j;return k?gY(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=m(b[1],a[1]),i=h?H(e[1],g[1]):h,j=i?g6(e[2],g[2]):i,k=j?H(d[1],f[1]):j;return k?g6(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
-l=cs(b[1],a[1]);if(l){var
+l=ct(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 3:if(3===a[0]){var
-n=cs(b[1],a[1]);if(n){var
+n=ct(b[1],a[1]);if(n){var
 b=b[2],a=a[2];continue}return n}return 0;case
 4:if(4===a[0]){var
-o=cs(b[1],a[1]);if(o){var
+o=ct(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;case
 5:if(5===a[0]){var
-p=cs(b[1],a[1]);if(p){var
+p=ct(b[1],a[1]);if(p){var
 b=b[2],a=a[2];continue}return p}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-fF(c,a){switch(a[0]){case
-0:return[0,[0,a[1],a[2]]];case
+fK(c,b){switch(b[0]){case
+0:return[0,[0,b[1],b[2]]];case
 1:return 0;case
 2:var
-m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dP(b,a)]};break;case
+m=b[2],n=b[1],g=m,f=n,d=function(b,a){return[0,dQ(b,a)]};break;case
 3:var
-o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,dQ(b,a)]};break;case
+o=b[2],p=b[1],g=o,f=p,d=function(b,a){return[0,dR(b,a)]};break;case
 4:var
-q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,bb(b,a)]};break;case
+q=b[2],r=b[1],g=q,f=r,d=function(b,a){return[0,bb(b,a)]};break;case
 5:var
-s=a[2],t=a[1],g=s,f=t,e=function(c,a){return eE(a,[0,d,b])?0:[0,g5(c,a)]};break;default:var
-k=fF(c,a[1]);return k?h(c,k[1]):k}var
-i=fF(c,f);if(i){var
-j=fF(c,g);if(j)return e(i[1],j[1]);var
+s=b[2],t=b[1],g=s,f=t,d=function(c,b){return eJ(b,[0,e,a])?0:[0,ha(c,b)]};break;default:var
+k=fK(c,b[1]);return k?h(c,k[1]):k}var
+i=fK(c,f);if(i){var
+j=fK(c,g);if(j)return d(i[1],j[1]);var
 l=j}else
 var
 l=i;return l}function
-uN(a){return 0}function
-cU(a){return fF(uN,a)}function
-b8(a,c){switch(c[0]){case
-0:return[0,mM(a,c[1],c[2])];case
+u3(a){return 0}function
+cV(a){return fK(u3,a)}function
+b$(b,c){switch(c[0]){case
+0:return[0,mT(b,c[1],c[2])];case
 1:return 0;case
 2:var
-g=b8(a,c[1]);if(g)var
-h=b8(a,c[2]),E=h?[0,z(g[1],h[1])]:h,r=E;else
+g=b$(b,c[1]);if(g)var
+h=b$(b,c[2]),E=h?[0,w(g[1],h[1])]:h,s=E;else
 var
-r=g;return r;case
+s=g;return s;case
 3:var
-i=b8(a,c[1]);if(i)var
-j=b8(a,c[2]),F=j?[0,B(i[1],j[1])]:j,u=F;else
+i=b$(b,c[1]);if(i)var
+j=b$(b,c[2]),F=j?[0,B(i[1],j[1])]:j,u=F;else
 var
 u=i;return u;case
 4:var
-k=b8(a,c[1]);if(k)var
-l=b8(a,c[2]),G=l?[0,s(a,k[1],l[1])]:l,v=G;else
+k=b$(b,c[1]);if(k)var
+l=b$(b,c[2]),G=l?[0,r(b,k[1],l[1])]:l,v=G;else
 var
 v=k;return v;case
 5:var
-m=b8(a,c[1]);if(m){var
-n=b8(a,c[2]);if(n)var
-o=bN(a,n[1]),K=o?[0,s(a,m[1],o[1])]:o,w=K;else
+m=b$(b,c[1]);if(m){var
+n=b$(b,c[2]);if(n)var
+o=bP(b,n[1]),J=o?[0,r(b,m[1],o[1])]:o,y=J;else
 var
-w=n;var
-y=w}else
+y=n;var
+z=y}else
 var
-y=m;return y;default:var
-A=c[1],p=b8(a,A);if(p){var
-e=p[1];if(I(d,e[1]))return cn(a,e);var
-f=cU(A),L=f?J(bp([0,d,b],f[1])):f;if(L)return 0;if(I(d,e[2])){var
-C=cn(a,[0,e[2],e[2]]);return x(function(a){return[0,d,a[2]]},C)}var
-q=H(e[2],d),D=q?[0,t]:q;return D}return p}}function
-cV(b,a){return mM(b,a[1],a[2])}function
-m0(a,f,e,d){var
-h=[0,b,c(2,b)],i=[0,cV(a,bb(dQ(d,e),h)),0],j=g($(t,f),i),k=cV(a,d)[2],l=[0,cV(a,e)[1],k],m=[0,b,c(2,b)];return[0,cV(a,bb(dP(e,d),m)),l,j]}function
-eJ(c,e,a){function
-b(a){return eJ(c,e,a)}if(dU(a))switch(a[0]){case
+z=m;return z;default:var
+A=c[1],p=b$(b,A);if(p){var
+d=p[1];if(I(e,d[1]))return cq(b,d);var
+f=cV(A),K=f?L(bq([0,e,a],f[1])):f;if(K)return 0;if(I(e,d[2])){var
+C=cq(b,[0,d[2],d[2]]);return x(function(a){return[0,e,a[2]]},C)}var
+q=H(d[2],e),D=q?[0,t]:q;return D}return p}}function
+cW(b,a){return mT(b,a[1],a[2])}function
+m7(b,f,e,d){var
+h=[0,a,c(2,a)],i=[0,cW(b,bb(dR(d,e),h)),0],j=g(X(t,f),i),k=cW(b,d)[2],l=[0,cW(b,e)[1],k],m=[0,a,c(2,a)];return[0,cW(b,bb(dQ(e,d),m)),l,j]}function
+eO(c,e,a){function
+b(a){return eO(c,e,a)}if(dV(a))switch(a[0]){case
 0:return 0;case
-1:return fi(e,a[1],a[2],a[3]);case
+1:return fm(e,a[1],a[2],a[3]);case
 2:var
-g=b(a[2]),h=b(a[1]);return cr(function(b,a){return[0,cq(b,a)]},h,g);case
+g=b(a[2]),h=b(a[1]);return cs(function(b,a){return[0,cr(b,a)]},h,g);case
 3:var
-i=b(a[2]),j=b(a[1]);return cr(function(b,a){return[0,bg(b,a)]},j,i);case
+i=b(a[2]),j=b(a[1]);return cs(function(b,a){return[0,bg(b,a)]},j,i);case
 4:var
-f=a[2],d=a[1];if(cs(d,f)){var
-k=b(d);return de(function(a){return[0,eH(c,a)]},k)}var
-l=b(f),m=b(d);return cr(function(b,a){return[0,aI(c,b,a)]},m,l);case
+f=a[2],d=a[1];if(ct(d,f)){var
+k=b(d);return dn(function(a){return[0,eM(c,a)]},k)}var
+l=b(f),m=b(d);return cs(function(b,a){return[0,aK(c,b,a)]},m,l);case
 5:var
-n=b(a[2]),o=b(a[1]);return cr(function(a,b){return eI(c,a,b)},o,n);default:var
-p=b(a[1]);return de(function(a){return jp(c,a)},p)}return x(_,b8(c,a))}function
-aD(b,a){if(dU(a)){var
-c=eJ(b,function(d,c,a){var
-e=aF(d,dV),f=e?bp(c,a):e,g=f?[0,m0(b,d,c,a)]:f;return g},a);return x(function(a){return a[2]},c)}return b8(b,a)}function
-jr(a){var
-e=bw(U(a),d);return eC(G(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
-m1(a){return jg(G(jr(a),a))}function
-m2(b,a){var
-c=m1(b),d=U(da(U(a[2]),c)),e=m1(b);return[0,da(a[1],e),d]}function
-df(c,a,b){var
-d=aD(G(c,jr(a)),b);return x(function(b){return m2(a,b)},d)}function
-au(d,a){var
-b=df(d,a[2],a[1][1]);if(b)var
-c=df(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+n=b(a[2]),o=b(a[1]);return cs(function(a,b){return eN(c,a,b)},o,n);default:var
+p=b(a[1]);return dn(function(a){return ju(c,a)},p)}return x(R,b$(c,a))}function
+aF(b,a){if(dV(a)){var
+c=eO(b,function(d,c,a){var
+e=aE(d,dW),f=e?bq(c,a):e,g=f?[0,m7(b,d,c,a)]:f;return g},a);return x(function(a){return a[2]},c)}return b$(b,a)}function
+jw(b){var
+d=by(W(b),e);return eH(G(c(2,c(2,c(2,c(2,c(2,c(2,a)))))),d))}function
+m8(a){return jl(G(jw(a),a))}function
+m9(b,a){var
+c=m8(b),d=W(dj(W(a[2]),c)),e=m8(b);return[0,dj(a[1],e),d]}function
+dp(c,a,b){var
+d=aF(G(c,jw(a)),b);return x(function(b){return m9(a,b)},d)}function
+av(d,a){var
+b=dp(d,a[2],a[1][1]);if(b)var
+c=dp(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-m3(b,a){var
-c=U(da(U(a[2]),b));return[0,da(a[1],b),c]}function
-ha(b,a){var
-c=g6(b[2],a);return[0,cO(b[1],a),c]}function
-m4(h,g,d,b){var
-e=b[2],f=mx(d),i=c(2,f),j=E(mt(f),i),a=ha(s(h,b[1],g),j),k=mr(d)?B(e,a):z(e,a);return[0,a,k]}function
-m5(a,d,c){if(c){var
-e=c[1];return m4(a,d,e,m5(a,d,e))}var
-f=L(a,b);return[0,L(a,b),f]}function
-m6(e,g){var
-o=cQ(e),p=E(c(2,c(2,b)),o),j=D(g[2],p);if(j){var
-n=fB(e),i=uO[1],d=n,f=0,a=i;for(;;){if(d){var
-h=d[1];if(a){var
-d=h,a=a[1];continue}var
-d=h,f=[0,f],a=i;continue}var
-k=O(mq(uR,O(uP,f)),uQ),l=m5(e,g,k),q=m4(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
+m_(b,a){var
+c=W(dj(W(a[2]),b));return[0,dj(a[1],b),c]}function
+hh(b,a){var
+c=hb(b[2],a);return[0,cP(b[1],a),c]}function
+m$(h,g,d,b){var
+e=b[2],f=mD(d),i=c(2,f),j=E(mz(f),i),a=hh(r(h,b[1],g),j),k=mx(d)?B(e,a):w(e,a);return[0,a,k]}function
+na(b,d,c){if(c){var
+e=c[1];return m$(b,d,e,na(b,d,e))}var
+f=J(b,a);return[0,J(b,a),f]}function
+nb(e,g){var
+o=cR(e),p=E(c(2,c(2,a)),o),j=D(g[2],p);if(j){var
+n=fF(e),i=u4[1],d=n,f=0,b=i;for(;;){if(d){var
+h=d[1];if(b){var
+d=h,b=b[1];continue}var
+d=h,f=[0,f],b=i;continue}var
+k=P(gZ(u7,P(u5,f)),u6),l=na(e,g,k),q=m$(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
 var
 m=j;return m}function
-m7(i){function
-a(h){var
-m=cO(cQ(i),h),g=fB(i),f=m,e=d,a=b;for(;;){if(g){var
-j=G(a,c(2,b)),k=G(e,cO(f,a)),l=U(cO(f,E(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(r(c(2,r(c(2,r(c(2,r(c(2,c(2,r(c(2,r(c(2,b)))))))))))))),f=E(c(2,c(2,b)),e),g=a(r(c(2,c(2,b))));return aT(E(c(2,c(2,c(2,c(2,b)))),g),f)}function
-m8(e,a){var
-f=D(d,a);if(f){var
-g=c(2,c(2,b));return m6(e,ha(P(e,[0,a,a]),g))}return f}function
-m9(a){var
-m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aT(m7(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=G(m7(a),n),e=m8(a,g);if(e){var
-f=m8(a,h);if(f)var
-i=I(d,e[1][1]),j=i?I(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
+nc(i){function
+b(h){var
+m=cP(cR(i),h),g=fF(i),f=m,d=e,b=a;for(;;){if(g){var
+j=G(b,c(2,a)),k=G(d,cP(f,b)),l=W(cP(f,E(h,h))),g=g[1],f=l,d=k,b=j;continue}return d}}var
+d=b(s(c(2,s(c(2,s(c(2,s(c(2,c(2,s(c(2,s(c(2,a)))))))))))))),f=E(c(2,c(2,a)),d),g=b(s(c(2,c(2,a))));return aX(E(c(2,c(2,c(2,c(2,a)))),g),f)}function
+nd(d,b){var
+f=D(e,b);if(f){var
+g=c(2,c(2,a));return nb(d,hh(Q(d,[0,b,b]),g))}return f}function
+ne(b){var
+m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,a)))))))))))),g=aX(nc(b),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,a)))))))))))),h=G(nc(b),n),d=nd(b,g);if(d){var
+f=nd(b,h);if(f)var
+i=I(e,d[1][1]),j=i?I(f[1][2],e):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
-l=e;return l}function
-m_(a,d){var
-c=P(a,d),e=L(a,b);return B(z(c,c),e)}function
-dg(f,j){var
-e=aD(G(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
-k=e[1],a=G(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=m9(a);if(d)var
-h=c(2,c(2,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))))),i=m6(a,P(a,ha(s(a,k,d[1]),h))),g=x(function(b){return m_(a,m_(a,b))},i);else
+l=d;return l}function
+nf(b,d){var
+c=Q(b,d),e=J(b,a);return B(w(c,c),e)}function
+dq(f,j){var
+e=aF(G(f,c(2,c(2,c(2,c(2,c(2,c(2,a))))))),j);if(e){var
+k=e[1],b=G(f,c(2,c(2,c(2,c(2,c(2,c(2,a))))))),d=ne(b);if(d)var
+h=c(2,c(2,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))))),i=nb(b,Q(b,hh(r(b,k,d[1]),h))),g=x(function(a){return nf(b,nf(b,a))},i);else
 var
 g=d;var
-l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return x(function(a){return m3(l,a)},g)}return e}function
-js(a,d){var
-e=m9(G(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return x(function(e){var
-f=c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))));return ha(s(a,d,m3(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
-hb(d,a){return dg(d,[3,a,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b]])}function
-i(i,e,c){var
-f=cU(c);if(f){var
-g=f[1];return e?J(bp(g,[0,d,b])):bp([0,d,b],g)}var
-a=aD(i,c);if(a){var
-h=a[1];return e?I(d,h[1]):D(d,h[1])}return a}function
-m$(c,b){var
-a=aD(c,b),d=a?1:a;return d}function
-bH(c,a,b){var
-d=cs(a,b),e=d?m$(c,a):d;return e?e:i(c,0,[3,b,a])}function
-uS(c){var
-a=dR(c),g=eC(g3(a[2])),b=[0,g3(a[1]),g],e=I(d,a[1]),f=e?eE(bb(b,b),c):e,h=f?[0,b]:f;return h}function
-na(a){if(a){var
-e=a[2],c=a[1];if(eE(bG([0,d,b],c),[0,d,b])){var
-g=na(e);return x(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
-f=[0,[0,c,e]]}else
+l=c(2,c(2,c(2,c(2,c(2,c(2,a))))));return x(function(a){return m_(l,a)},g)}return e}function
+jx(b,d){var
+e=ne(G(b,c(2,c(2,c(2,c(2,c(2,c(2,a))))))));return x(function(e){var
+f=c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a))))))))));return hh(r(b,d,m_(c(2,c(2,c(2,c(2,c(2,c(2,a)))))),e)),f)},e)}function
+hi(d,b){return dq(d,[3,b,[0,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a))))))))),a]])}function
+i(i,d,c){var
+f=cV(c);if(f){var
+g=f[1];return d?L(bq(g,[0,e,a])):bq([0,e,a],g)}var
+b=aF(i,c);if(b){var
+h=b[1];return d?I(e,h[1]):D(e,h[1])}return b}function
+ng(c,b){var
+a=aF(c,b),d=a?1:a;return d}function
+bI(c,a,b){var
+d=ct(a,b),e=d?ng(c,a):d;return e?e:i(c,0,[3,b,a])}function
+u8(c){var
+a=dS(c),g=eH(g_(a[2])),b=[0,g_(a[1]),g],d=I(e,a[1]),f=d?eJ(bb(b,b),c):d,h=f?[0,b]:f;return h}function
+nh(b){if(b){var
+d=b[2],c=b[1];if(eJ(bz([0,e,a],c),[0,e,a])){var
+g=nh(d);return x(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
+f=[0,[0,c,d]]}else
 var
-f=a;return f}function
-nb(c,a){var
-e=N(c,a),f=[0,d,b];return am(function(a,b){return dR(dP(bb(a[1],a[2]),b))},f,e)}function
-nc(c,j){if(c){var
-f=c[1],g=na(j);if(g){var
-h=g[1],a=h[1],k=function(c){var
-f=bG([0,d,b],a),g=g5(bG([0,d,b],c),f),h=bx(a),i=N(bx(c),h);return e(function(a){var
-b=bb(g,a[2]);return dR(dQ(a[1],b))},i)},l=nc(f,e(k,h[2]));return x(function(c){var
-e=bG([0,d,b],a);return[0,dR(g5(g4(nb(bx(a),c)),e)),c]},l)}var
-i=[0,[0,[0,b,b],$([0,d,b],f)]]}else
+f=b;return f}function
+ni(c,b){var
+d=M(c,b),f=[0,e,a];return an(function(a,b){return dS(dQ(bb(a[1],a[2]),b))},f,d)}function
+nj(c,j){if(c){var
+f=c[1],g=nh(j);if(g){var
+h=g[1],b=h[1],k=function(c){var
+f=bz([0,e,a],b),g=ha(bz([0,e,a],c),f),h=bp(b),i=M(bp(c),h);return d(function(a){var
+b=bb(g,a[2]);return dS(dR(a[1],b))},i)},l=nj(f,d(k,h[2]));return x(function(c){var
+d=bz([0,e,a],b);return[0,dS(ha(g$(ni(bp(b),c)),d)),c]},l)}var
+i=[0,[0,[0,a,a],X([0,e,a],f)]]}else
 var
 i=c;return i}function
-nd(a){if(a){var
-b=fF(uS,a[1]);if(b)var
-c=nd(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+nk(a){if(a){var
+b=fK(u8,a[1]);if(b)var
+c=nk(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return uT}function
-ne(a){if(a){var
-b=nd(a[1]);if(b)var
-c=ne(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+d=b;return d}return u9}function
+nl(a){if(a){var
+b=nk(a[1]);if(b)var
+c=nl(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return uU}function
-nf(i,n){var
-a=ne(n);if(a){var
-j=a[1],c=nc(i,j);if(c){var
-e=c[1],g=m(f(e),i),h=g?ag(function(a){return J(eE(a,[0,d,b]))},e):g;return h?l(function(a){return eE(nb(a,e),[0,d,b])},j):h}var
-k=c}else
+d=b;return d}return u_}function
+nm(i,n){var
+b=nl(n);if(b){var
+j=b[1],c=nj(i,j);if(c){var
+d=c[1],g=m(f(d),i),h=g?ag(function(b){return L(eJ(b,[0,e,a]))},d):g;return h?k(function(b){return eJ(ni(b,d),[0,e,a])},j):h}var
+l=c}else
 var
-k=a;return k}function
-uV(a){return a}function
-uW(a){return a}function
-uX(a,b){return aL(uW,uV,z,a,b)}function
-uY(a){return a}function
-uZ(a){return a}function
-aV(a,b){return aL(uZ,uY,uX,a,b)}function
-jt(a,f,c,d){if(c){var
-h=c[2],i=L(a,b),g=co(c[1],i,f);if(d){var
-j=jt(a,f,h,d[2]),k=d[1],l=function(c,b){return B(c,s(a,g,b))},m=function(b){return Q(s(a,g,b))};return[0,aL(function(a){return a},m,l,k,c),j]}var
-n=jt(a,f,h,0);return[0,e(function(b){return Q(s(a,g,b))},c),n]}return d}function
-fG(h,a){if(a){var
+l=b;return l}function
+u$(a){return a}function
+va(a){return a}function
+vb(a,b){return aJ(va,u$,w,a,b)}function
+vc(a){return a}function
+vd(a){return a}function
+aL(a,b){return aJ(vd,vc,vb,a,b)}function
+jy(b,f,c,e){if(c){var
+h=c[2],i=J(b,a),g=b8(c[1],i,f);if(e){var
+j=jy(b,f,h,e[2]),k=e[1],l=function(c,a){return B(c,r(b,g,a))},m=function(a){return N(r(b,g,a))};return[0,aJ(function(a){return a},m,l,k,c),j]}var
+n=jy(b,f,h,0);return[0,d(function(a){return N(r(b,g,a))},c),n]}return e}function
+eP(h,a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=I(d,c[1]),i=e?[0,jt(h,c,b[2],a[2])]:e,f=i;else
+c=b[1],d=I(e,c[1]),i=d?[0,jy(h,c,b[2],a[2])]:d,f=i;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-ng(g,f,e){var
+nn(g,f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=fG(g,b);if(c){var
+c=eP(g,b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-nh(d,b,a){if(b)if(a)var
-e=a[1],f=nh(d,b[2],a[2]),g=cM(d,b[1])?bA(e):b5(e),c=[0,g,f];else
+no(d,b,a){if(b)if(a)var
+e=a[1],f=no(d,b[2],a[2]),g=cN(d,b[1])?br(e):bR(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-ni(a,b){if(a)if(b)var
-d=ni(a[2],b[2]),c=[0,nh(a[1],a,b[1]),d];else
+np(a,b){if(a)if(b)var
+d=np(a[2],b[2]),c=[0,no(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-a9(a){if(a){var
-b=a[1],c=a9(b),d=e(function(a){return[0,1,a]},c),f=a9(b);return g(e(function(a){return[0,0,a]},f),d)}return u0}function
-eK(c,a){var
-b=f(a);if(ng(c,b,a))return 1;var
-d=a9(aU(b));return l(function(d){return ng(c,b,ni([0,0,d],a))},d)}function
-aB(a){function
+a4(a){if(a){var
+b=a[1],c=a4(b),e=d(function(a){return[0,1,a]},c),f=a4(b);return g(d(function(a){return[0,0,a]},f),e)}return ve}function
+eQ(c,a){var
+b=f(a);if(nn(c,b,a))return 1;var
+d=a4(aY(b));return k(function(d){return nn(c,b,np([0,0,d],a))},d)}function
+aC(a){function
 b(b){var
-c=h(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
-av(h,e){var
+c=h(a,b[2]);return[0,d(a,b[1]),c]}return function(a){return d(b,a)}}function
+aq(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?z(a,d):B(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-ju(c,b,a){var
-d=a9(c);return l(function(c){return h(a,h(aB(function(a){return av(c,a)}),b))},d)}function
-hc(h,d,c){if(d)if(c)var
-i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aH(c,G(h,b),a)},k=hc(h,j,i),l=function(c,b){var
-d=a(b,e);return z(a(f,c),d)},m=function(b){return a(b,e)},n=aL(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,z(a(f,e),o),n],k];else
+d=b[1],f=b[2],g=c[1]?w(a,d):B(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+jz(c,b,a){var
+d=a4(c);return k(function(c){return h(a,h(aC(function(a){return aq(c,a)}),b))},d)}function
+fL(h,d,c){if(d)if(c)var
+i=c[2],e=c[1],j=d[2],f=d[1],b=function(c,b){return aB(c,G(h,a),b)},k=fL(h,j,i),l=function(c,a){var
+d=b(a,e);return w(b(f,c),d)},m=function(a){return b(a,e)},n=aJ(function(a){return b(f,a)},m,l,i,j),o=b(f,e),g=[0,[0,w(b(f,e),o),n],k];else
 var
 g=c;else
 var
 g=d;return g}function
-dh(b,d,a,c){function
+cu(b,d,a,c){function
 e(c,d){var
-e=aH(d,b,a);return B(z(c,c),e)}function
-f(c){return Q(aH(c,b,a))}return aL(function(a){return z(a,a)},f,e,d,c)}function
-hd(d,i,h,g){var
+e=aB(d,b,a);return B(w(c,c),e)}function
+f(c){return N(aB(c,b,a))}return aJ(function(a){return w(a,a)},f,e,d,c)}function
+hj(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=b5(e[2]),k=aV(a,hc(d,f,dh(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-jv(b,a){return[0,[0,0,b],a]}function
-fH(i,b,c,h,g,a){function
+e=b[1],f=c[1],j=bR(e[2]),k=aL(a,fL(d,f,cu(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+jA(b,a){return[0,[0,0,b],a]}function
+fM(i,b,c,h,g,a){function
 d(a){if(a){var
-j=$([0,Q(a[1][2]),0],b),c=hd(h,g,a[2],j),d=m(f(c),b);if(d)return eK(i,c);var
+j=X([0,N(a[1][2]),0],b),c=hj(h,g,a[2],j),d=m(f(c),b);if(d)return eQ(i,c);var
 e=d}else
 var
-e=a;return e}return ju(b,jv(c,a),d)}function
-he(g,f,e){var
+e=a;return e}return jz(b,jA(c,a),d)}function
+hk(g,f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],h=d[1],c=fG(g,[0,[0,bA(d[2]),h],b]);if(c){var
+d=a[1],h=d[1],c=eP(g,[0,[0,br(d[2]),h],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-jw(d,b,c,a){function
+jB(d,b,c,a){function
 e(a){if(a){var
-j=$([0,a[1][2],0],b),c=he(d,a[2],j);if(c){var
-e=c[1],g=m(f(e),b);if(g)return eK(d,e);var
+j=X([0,a[1][2],0],b),c=hk(d,a[2],j);if(c){var
+e=c[1],g=m(f(e),b);if(g)return eQ(d,e);var
 h=g}else
 var
 h=c;var
 i=h}else
 var
-i=a;return i}return ju(b,jv(c,a),e)}function
-nj(h,g,a,f,d,c){var
-i=[0,t,t,0],b=e(function(a){return[0,a[1],i]},c),j=a?a[1]:[0,t,t,0];return fH(h,g,j,f,d,b)}function
-hf(b,a){var
-c=a9(b);return l(function(b){return I(d,av(b,a)[1])},c)}function
-fI(c,b,a){var
-d=a[3],f=e(function(a){return aH(c,b,a)},d),g=a[2];return[0,aH(c,b,a[1]),g,f]}function
-jx(a,b){var
+i=a;return i}return jz(b,jA(c,a),e)}function
+nq(h,g,a,f,e,c){var
+i=[0,t,t,0],b=d(function(a){return[0,a[1],i]},c),j=a?a[1]:[0,t,t,0];return fM(h,g,j,f,e,b)}function
+hl(b,a){var
+c=a4(b);return k(function(b){return I(e,aq(b,a)[1])},c)}function
+fN(c,b,a){var
+e=a[3],f=d(function(a){return aB(c,b,a)},e),g=a[2];return[0,aB(c,b,a[1]),g,f]}function
+hm(a,b){var
 c=b[3],d=a[3];function
 e(a){return a}var
-f=aL(function(a){return a},e,z,d,c),g=a[2];return[0,z(a[1],b[1]),g,f]}function
-nk(a,b){var
-c=b[3],d=a[3],e=aL(function(a){return a},Q,B,d,c),f=a[2];return[0,B(a[1],b[1]),f,e]}function
-bP(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+f=aJ(function(a){return a},e,w,d,c),g=a[2];return[0,w(a[1],b[1]),g,f]}function
+nr(a,b){var
+c=b[3],d=a[3],e=aJ(function(a){return a},N,B,d,c),f=a[2];return[0,B(a[1],b[1]),f,e]}function
+bS(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 ah(c,b,a){var
-d=at(c,b[3],a[3]),e=at(c,b[2],a[2]);return[0,at(c,b[1],a[1]),e,d]}function
-a_(b,a){var
+d=au(c,b[3],a[3]),e=au(c,b[2],a[2]);return[0,au(c,b[1],a[1]),e,d]}function
+a$(b,a){var
 c=u(b,a[3]),d=u(b,a[2]);return[0,u(b,a[1]),d,c]}function
-bq(b,a){var
-c=aj(b[3],a),d=aj(b[2],a);return[0,aj(b[1],a),d,c]}function
+bs(b,a){var
+c=ak(b[3],a),d=ak(b[2],a);return[0,ak(b[1],a),d,c]}function
 ac(b,a){var
 c=u(b[3],a[3]),d=u(b[2],a[2]);return C(C(u(b[1],a[1]),d),c)}function
-dW(a){return bq(a,aO(ac(a,a)))}function
-di(a){var
-b=a[5];return b?b[1]:aO(a[2])}function
-hg(b,a){return b?a:bB(a)}function
-nl(e,a,i,d,h){var
-f=ac(a,e),b=ah(A,e,a_(f,a)),j=ac(b,b),g=A(X(d),j),c=hg(h,aO(g)),k=A(f,c),l=ah(C,a,bq(b,c));return[0,ah(C,b,a_(c,a)),g,l,k,[0,d],0,[0,i]]}function
-nm(a,e,d){var
-b=ac(a,a),c=aO(b),f=[0,e],g=x(function(b){return ah(A,a,a_(ac(b,a),b))},d);return[0,a,b,bq(a,c),c,0,g,f]}function
-nn(c,a){var
-d=ac(a,c);return[0,a,n(b),a,d,0,0,0]}function
-fJ(a){return e(function(a){var
-b=a[2];return[0,bP(a[1]),b]},a)}function
-no(a){return e(function(a){var
-c=n(b);return[0,bP(a[3]),c]},a)}function
-np(b,a){var
+dX(a){return bs(a,aQ(ac(a,a)))}function
+dr(a){var
+b=a[5];return b?b[1]:aQ(a[2])}function
+hn(b,a){return b?a:bC(a)}function
+ns(e,a,i,d,h){var
+f=ac(a,e),b=ah(A,e,a$(f,a)),j=ac(b,b),g=A(_(d),j),c=hn(h,aQ(g)),k=A(f,c),l=ah(C,a,bs(b,c));return[0,ah(C,b,a$(c,a)),g,l,k,[0,d],0,[0,i]]}function
+nt(a,e,d){var
+b=ac(a,a),c=aQ(b),f=[0,e],g=x(function(b){return ah(A,a,a$(ac(b,a),b))},d);return[0,a,b,bs(a,c),c,0,g,f]}function
+nu(c,b){var
+d=ac(b,c);return[0,b,n(a),b,d,0,0,0]}function
+fO(a){return d(function(a){var
+b=a[2];return[0,bS(a[1]),b]},a)}function
+nv(b){return d(function(b){var
+c=n(a);return[0,bS(b[3]),c]},b)}function
+nw(b,a){var
 c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]}function
-nq(c,b,a){var
-d=at(c,b[3],a[3]),e=at(c,b[2],a[2]);return[0,at(c,b[1],a[1]),e,d]}function
-eL(d,a){var
-b=cn(d,[0,a[2],a[2]]);if(b){var
+nx(c,b,a){var
+d=au(c,b[3],a[3]),e=au(c,b[2],a[2]);return[0,au(c,b[1],a[1]),e,d]}function
+eR(d,a){var
+b=cq(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-hh(a,n,f,m,e,k,j){var
-o=nq(bg,k,j),b=nq(function(b,c){return aI(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=cq(cq(cq(_(L(a,d)),h),g),c),p=a9(n);return l(function(c){var
-b=np(function(b){return P(a,av(c,b))},e),h=b[3],j=b[2],k=b[1],l=s(a,m,eL(a,z(z(z(L(a,d),k),j),h))),g=B(av(c,i),l),n=f?B(g,av(c,f[1])):g;return I(d,n[1])},p)}function
-ct(a){return dO(G(a[1],a[2]),b)}function
-eM(a){var
-b=ct(a);return aT(a[2],b)}function
-dj(c,b){if(b)var
-a=b[1],e=dj([0,c],b[2]),f=eM(a),h=[0,[0,eM(a),f],0],i=g($(t,c),h),j=ct(a),d=[0,[0,[0,ct(a),j],a,i],e];else
+ho(a,n,f,m,d,l,j){var
+o=nx(bg,l,j),b=nx(function(b,c){return aK(a,b,c)},d,o),c=b[3],g=b[2],h=b[1],i=cr(cr(cr(R(J(a,e)),h),g),c),p=a4(n);return k(function(c){var
+b=nw(function(b){return Q(a,aq(c,b))},d),h=b[3],j=b[2],k=b[1],l=r(a,m,eR(a,w(w(w(J(a,e),k),j),h))),g=B(aq(c,i),l),n=f?B(g,aq(c,f[1])):g;return I(e,n[1])},p)}function
+cv(b){return dP(G(b[1],b[2]),a)}function
+eS(a){var
+b=cv(a);return aX(a[2],b)}function
+cX(c,b){if(b)var
+a=b[1],e=cX([0,c],b[2]),f=eS(a),h=[0,[0,eS(a),f],0],i=g(X(t,c),h),j=cv(a),d=[0,[0,[0,cv(a),j],a,i],e];else
 var
 d=b;return d}function
-dk(d,b){if(b){var
+ds(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=dk(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,ct(a),f],c],h=ct(a);return[0,[0,[0,a[1],h],c],g]}return u1}function
-nr(d,c,a){if(c){if(a){var
-e=nr(d,c[2],a[2]);return z(aH(c[1],G(d,b),a[1]),e)}return t}return t}function
-dY(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return nr(f,a,b)},j=dY(f,h),k=e(function(a){var
-e=b(d,a[2]);return z(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,z(b(d,c),l),k],j];else
+e=ds(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,cv(a),f],c],h=cv(a);return[0,[0,[0,a[1],h],c],g]}return vf}function
+ny(d,c,b){if(c){if(b){var
+e=ny(d,c[2],b[2]);return w(aB(c[1],G(d,a),b[1]),e)}return t}return t}function
+dZ(f,a){if(a)var
+g=a[1],c=g[2],e=g[1],h=a[2],b=function(a,b){return ny(f,a,b)},j=dZ(f,h),k=d(function(a){var
+d=b(e,a[2]);return w(b(a[1],c),d)},h),l=b(e,c),i=[0,[0,w(b(e,c),l),k],j];else
 var
 i=a;return i}function
-dZ(e,b,d,a){if(b)if(a)var
-f=b[1],g=dZ(e,b[2],d,a[2]),c=[0,[0,f,dh(e,a[1][1],d,f)],g];else
+d0(e,b,d,a){if(b)if(a)var
+f=b[1],g=d0(e,b[2],d,a[2]),c=[0,[0,f,cu(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-hi(f,d,c,b,a){if(a){var
-g=a[2];if(d){var
-i=hi(f,d[1],c,b,g);return[0,[0,B(t,b),0],i]}var
-j=e(function(a){return[0,B(t,b),0]},g),h=[0,[0,B(Q(s(f,c,b5(a[1][2]))),b),0],j]}else
+hp(f,e,c,b,a){if(a){var
+g=a[2];if(e){var
+i=hp(f,e[1],c,b,g);return[0,[0,B(t,b),0],i]}var
+j=d(function(a){return[0,B(t,b),0]},g),h=[0,[0,B(N(r(f,c,bR(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-aX(d,c,a){var
-b=m(f(a),c);return b?eK(d,a):b}function
-hj(d,b,a){if(b)var
-c=b[1],f=hj([0,d],b[2],a),h=g($(t,d),[0,a,0]),e=[0,[0,c,[0,aT(c[1],a[2]),G(c[2],a[2])],h],f];else
+aU(d,c,a){var
+b=m(f(a),c);return b?eQ(d,a):b}function
+hq(d,b,a){if(b)var
+c=b[1],f=hq([0,d],b[2],a),h=g(X(t,d),[0,a,0]),e=[0,[0,c,[0,aX(c[1],a[2]),G(c[2],a[2])],h],f];else
 var
 e=b;return e}function
-ns(d){if(d){var
+nz(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=ns(d[2]);return x(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=nz(d[2]);return x(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return u2}function
-nt(d,c,b,a){return b5(by(function(e,a){var
-b=bO(av(c,a[2]));return z(e,s(d,a[1],[0,b,b]))},a,b))}function
-nu(b,c,a){return c?az(b,a):aq(b,a)}function
-nv(b,i,h,a){return eL(b,am(function(k,j){var
-p=e(function(b){var
-a=aA(0,i);return e(function(a){return bO(q(a,b[3],t))},a)},k);function
+f=a;return f}return vg}function
+nA(d,c,b,a){return bR(bA(function(e,a){var
+b=bQ(aq(c,a[2]));return w(e,r(d,a[1],[0,b,b]))},a,b))}function
+nB(b,c,a){return c?aw(b,a):ap(b,a)}function
+nC(b,i,h,a){return eR(b,an(function(k,j){var
+p=d(function(b){var
+a=ax(0,i);return d(function(a){return bQ(q(a,b[3],t))},a)},k);function
 a(n,m){var
-o=nu(h,n,p),g=e(function(a){return nu(h,m,a)},o);function
-a(a){return am(bw,d,a)}var
+o=nB(h,n,p),g=d(function(a){return nB(h,m,a)},o);function
+a(a){return an(by,e,a)}var
 i=0;function
 j(a){return a}function
 k(a){return a}var
-c=a(am(function(a,b){return aL(k,j,mB,a,b)},i,g)),l=[0,c,c],f=a(e(function(a){return am(mB,d,a)},g));return eL(b,s(b,[0,f,f],l))}var
-c=a(1,1),f=a(1,0),g=a(0,1);return z(j,P(b,z(z(z(a(0,0),g),f),c)))},t,a))}function
-nw(d,a,g,f){var
-h=aA(0,d);return e(function(d){var
-e=g?ae(a,d):aF(d,a);return e?b:cm(c(2,b),f)},h)}function
-nx(b,a){var
-c=N(b,a);return e(function(a){return aH(a[1],d,a[2])},c)}function
-ny(c,b,a){var
-d=[0,[0,a,0],0],f=N(c,b);return g(e(function(a){return g(a[1],[0,a[2],0])},f),d)}function
-nz(g,e){var
+c=a(an(function(a,b){return aJ(k,j,mH,a,b)},i,g)),l=[0,c,c],f=a(d(function(a){return an(mH,e,a)},g));return eR(b,r(b,[0,f,f],l))}var
+c=a(1,1),f=a(1,0),g=a(0,1);return w(j,Q(b,w(w(w(a(0,0),g),f),c)))},t,a))}function
+nD(g,b,f,e){var
+h=ax(0,g);return d(function(d){var
+g=f?ae(b,d):aE(d,b);return g?a:cp(c(2,a),e)},h)}function
+nE(b,a){var
+c=M(b,a);return d(function(a){return aB(a[1],e,a[2])},c)}function
+nF(c,b,a){var
+e=[0,[0,a,0],0],f=M(c,b);return g(d(function(a){return g(a[1],[0,a[2],0])},f),e)}function
+nG(g,e){var
 a=g,b=e;for(;;){if(b){if(a){var
 c=m(f(b[1]),a);if(c){var
 a=a[1],b=b[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-nA(b,a){var
-c=N(b,a);return e(function(a){return a[1]?Q(a[2]):a[2]},c)}function
-nB(a,f,b,d,c){var
-h=hj(a,$(t,dN(f,a)),c),i=g(e(_,az(a,b)),h);return g(hj(0,aq(a,b),d),i)}function
-nC(a,e,c){var
-f=s(a,e,c);return I(d,B(L(a,b),f)[1])}function
-eN(a){return x(function(a){return x(dT,a)},a)}function
-br(c,b,a){function
-d(a){return aI(c,b,a)}return x(function(a){return x(d,a)},a)}function
-d0(c,b,a){function
-d(a){return eI(c,a,b)}return x(function(a){return de(d,a)},a)}function
-bs(b,a){if(b){if(a){var
-c=a[1],d=b[1];return[0,cr(function(b,a){return[0,cq(b,a)]},d,c)]}return b}return a}function
-eO(b,a){var
-c=N(b,a);return e(function(a){return bs(a[1],a[2])},c)}function
-dl(a){return _(L(a,c(2,b)))}function
-jy(a,av,au,K,c){var
-aw=b6(as,c),f=h(b7(a,av,au),aw);switch(c[0]){case
+nH(b,a){var
+c=M(b,a);return d(function(a){return a[1]?N(a[2]):a[2]},c)}function
+nI(a,f,b,e,c){var
+h=hq(a,X(t,dO(f,a)),c),i=g(d(R,aw(a,b)),h);return g(hq(0,ap(a,b),e),i)}function
+nJ(b,d,c){var
+f=r(b,d,c);return I(e,B(J(b,a),f)[1])}function
+eT(a){return x(function(a){return x(dU,a)},a)}function
+bt(c,b,a){function
+d(a){return aK(c,b,a)}return x(function(a){return x(d,a)},a)}function
+d1(c,b,a){function
+d(a){return eN(c,a,b)}return x(function(a){return dn(d,a)},a)}function
+bu(b,a){if(b){if(a){var
+c=a[1],d=b[1];return[0,cs(function(b,a){return[0,cr(b,a)]},d,c)]}return b}return a}function
+eU(b,a){var
+c=M(b,a);return d(function(a){return bu(a[1],a[2])},c)}function
+dt(b){return R(J(b,c(2,a)))}function
+jC(b,av,au,L,c){var
+aw=b9(ao,c),f=h(b_(b,av,au),aw);switch(c[0]){case
 1:var
-O=c[1],d=e(function(d){var
-c=m(O,d),e=c?[0,[0,_(L(a,b))]]:c;return e},K);break;case
+O=c[1],e=d(function(d){var
+c=m(O,d),e=c?[0,[0,R(J(b,a))]]:c;return e},L);break;case
 3:var
-d=eO(c[1][2],c[2][2]);break;case
+e=eU(c[1][2],c[2][2]);break;case
 4:var
-P=e(eN,c[2][2]),d=eO(c[1][2],P);break;case
+P=d(eT,c[2][2]),e=eU(c[1][2],P);break;case
 5:var
-d=e(eN,c[1][2]);break;case
+e=d(eT,c[1][2]);break;case
 6:var
 x=c[2],y=c[1],g=y[1],u=0;if(g){var
 i=x[1];if(i)var
-Q=x[2],R=g[1],S=e(function(b){return br(a,R,b)},Q),T=y[2],U=i[1],d=eO(e(function(b){return br(a,U,b)},T),S);else{var
+Q=x[2],S=g[1],T=d(function(a){return bt(b,S,a)},Q),U=y[2],V=i[1],e=eU(d(function(a){return bt(b,V,a)},U),T);else{var
 z=i;u=1}}else{var
 z=g;u=1}if(u)var
-d=z;break;case
+e=z;break;case
 7:var
 v=0;if(f){var
 A=c[2],j=A[1];if(j)var
-V=A[2],W=dT(f[1]),X=e(function(b){return br(a,W,b)},V),Y=eO(c[1][2],X),Z=j[1],d=e(function(b){return d0(a,Z,b)},Y);else{var
+W=A[2],X=dU(f[1]),Y=d(function(a){return bt(b,X,a)},W),Z=eU(c[1][2],Y),_=j[1],e=d(function(a){return d1(b,_,a)},Z);else{var
 B=j;v=1}}else{var
 B=f;v=1}if(v)var
-d=B;break;case
+e=B;break;case
 8:var
 C=c[1],k=C[1];if(k)var
-$=C[2],aa=k[1],ab=aI(a,dl(a),aa),d=e(function(b){return br(a,ab,b)},$);else
+$=C[2],aa=k[1],ab=aK(b,dt(b),aa),e=d(function(a){return bt(b,ab,a)},$);else
 var
-d=k;break;case
+e=k;break;case
 9:if(f)var
-ac=c[1][2],ad=f[1],ae=aI(a,dl(a),ad),d=e(function(b){return d0(a,ae,b)},ac);else
+ac=c[1][2],ad=f[1],ae=aK(b,dt(b),ad),e=d(function(a){return d1(b,ae,a)},ac);else
 var
-d=f;break;case
+e=f;break;case
 10:var
 D=c[4],E=c[3],F=c[2],l=F[1],w=0;if(l){var
 n=l[1],o=E[1],M=0;if(o){var
 p=o[1],q=D[1],N=0;if(q){var
-r=jq(a,n,p,q[1]);if(r){var
-G=r[1],s=G[2],t=G[1],af=E[2],ag=bg(p,s),ah=e(function(b){return br(a,ag,b)},af),ai=F[2],aj=bg(n,t),ak=eO(e(function(b){return br(a,aj,b)},ai),ah),al=e(eN,D[2]),am=dl(a),an=eO(e(function(b){return br(a,am,b)},ak),al),ao=c[1]?t:dT(s),ap=e(function(b){return br(a,ao,b)},an),aq=aI(a,n,s),ar=bg(aI(a,p,t),aq),at=aI(a,dl(a),ar),d=e(function(b){return d0(a,at,b)},ap);M=1;N=1}else
+r=jv(b,n,p,q[1]);if(r){var
+G=r[1],s=G[2],t=G[1],af=E[2],ag=bg(p,s),ah=d(function(a){return bt(b,ag,a)},af),ai=F[2],aj=bg(n,t),ak=eU(d(function(a){return bt(b,aj,a)},ai),ah),al=d(eT,D[2]),am=dt(b),an=eU(d(function(a){return bt(b,am,a)},ak),al),ap=c[1]?t:dU(s),aq=d(function(a){return bt(b,ap,a)},an),ar=aK(b,n,s),as=bg(aK(b,p,t),ar),at=aK(b,dt(b),as),e=d(function(a){return d1(b,at,a)},aq);M=1;N=1}else
 var
 H=r}else
 var
@@ -2045,90 +2056,90 @@ H=q;if(!N)var
 I=H}else
 var
 I=o;if(!M){var
-J=I;w=1}}else{var
-J=l;w=1}if(w)var
-d=J;break;default:var
-d=e(function(a){return 0},K)}return[0,f,d]}function
-fK(b,c,a){if(a)var
-f=a[1],g=fK(b,c,a[2]),d=[0,e(function(a){return Q(s(b,s(b,c,f),a))},a),g];else
+K=I;w=1}}else{var
+K=l;w=1}if(w)var
+e=K;break;default:var
+e=d(function(a){return 0},L)}return[0,f,e]}function
+fP(b,c,a){if(a)var
+f=a[1],g=fP(b,c,a[2]),e=[0,d(function(a){return N(r(b,r(b,c,f),a))},a),g];else
 var
-d=a;return d}function
-fL(a){return l(function(a){var
-b=H(a[1],d);return b?H(a[2],d):b},a)}function
-eP(c,b,a){var
-d=N(b,a);return am(function(a,b){return z(s(c,a[1],a[2]),b)},t,d)}function
-eQ(c,b,a){var
-d=bO(eP(c,a,b));return am(function(b,a){return G(bO(b),a)},d,a)}function
-a$(a){return L(a,b)}function
-jz(a,f,c,e,h){if(!fL(c)&&!fL(e)){var
-g=eQ(a,f,e),l=a$(a),m=eQ(a,f,c),b=co([0,eQ(a,f,c),m],l,[0,g,g])[1],i=I(d,g),j=i?I(d,b):i;if(j)var
-n=an(g7(a,[0,b,b])),o=function(d,c){return B(s(a,[0,b,b],d),c)},p=[0,b,b],k=[0,aV(h,fK(a,n,aL(function(b){return s(a,p,b)},Q,o,e,c)))];else
+e=a;return e}function
+fQ(a){return k(function(a){var
+b=H(a[1],e);return b?H(a[2],e):b},a)}function
+d2(c,b,a){var
+d=M(b,a);return an(function(a,b){return w(r(c,a[1],a[2]),b)},t,d)}function
+eV(c,b,a){var
+d=bQ(d2(c,a,b));return an(function(b,a){return G(bQ(b),a)},d,a)}function
+aV(b){return J(b,a)}function
+jD(a,f,c,d,h){if(!fQ(c)&&!fQ(d)){var
+g=eV(a,f,d),l=aV(a),m=eV(a,f,c),b=b8([0,eV(a,f,c),m],l,[0,g,g])[1],i=I(e,g),j=i?I(e,b):i;if(j)var
+n=aj(hc(a,[0,b,b])),o=function(d,c){return B(r(a,[0,b,b],d),c)},p=[0,b,b],k=[0,aL(h,fP(a,n,aJ(function(b){return r(a,p,b)},N,o,d,c)))];else
 var
 k=j;return k}return[0,h]}function
-fM(h,g,f,e,d){var
+fR(h,g,f,e,d){var
 a=e,b=d;for(;;){if(a){var
-c=jz(h,g,f,a[1],b);if(c){var
+c=jD(h,g,f,a[1],b);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-nD(a){var
-b=a[2],c=e(function(a){return[0,a[1],t]},b);return[0,[0,a[1][1],t],c]}function
-jA(h,n,a,m,l,k){var
-d=m,c=l,b=k;for(;;){if(d){if(c){var
-i=c[1],j=i[1],f=d[1],o=b5(j[2]),p=aV(b,hc(a,f,dh(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(an,dh(a,b[1],b[2],c))}}(f),q),g=fM(h,n,e(function(b){return aH(b,a,a$(h))},f),r,p);if(g){var
-d=d[2],c=c[2],b=g[1];continue}return g}return[0,b]}return[0,b]}}function
-nE(a,j,r,q){var
+nK(a){var
+b=a[2],c=d(function(a){return[0,a[1],t]},b);return[0,[0,a[1][1],t],c]}function
+jE(h,n,a,m,l,k){var
+e=m,c=l,b=k;for(;;){if(e){if(c){var
+i=c[1],j=i[1],f=e[1],o=bR(j[2]),p=aL(b,fL(a,f,cu(a,j[1],o,f))),q=i[2],r=d(function(c){return function(b){return d(aj,cu(a,b[1],b[2],c))}}(f),q),g=fR(h,n,d(function(b){return aB(b,a,aV(h))},f),r,p);if(g){var
+e=e[2],c=c[2],b=g[1];continue}return g}return[0,b]}return[0,b]}}function
+nL(a,j,r,q){var
 c=r,f=q;for(;;){if(c){var
-k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,bA(g),h],f];if(m){var
-o=I(d,g[1]);if(o)var
-s=e(function(a){var
-b=a[1];return[0,an(a[2]),b]},m),u=e(function(a){return t},h),v=[0,a$(a),u],w=a$(a),b=fM(a,[0,Q(co(eP(a,h,j),w,g)),j],v,s,n);else
+k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,br(g),h],f];if(m){var
+o=I(e,g[1]);if(o)var
+s=d(function(a){var
+b=a[1];return[0,aj(a[2]),b]},m),u=d(function(a){return t},h),v=[0,aV(a),u],w=aV(a),b=fR(a,[0,N(b8(d2(a,h,j),w,g)),j],v,s,n);else
 var
 b=o}else
 var
 b=[0,n];if(b){var
-i=fG(a,b[1]);if(i){var
+i=eP(a,b[1]);if(i){var
 c=c[2],f=i[1];continue}var
 p=i}else
 var
 p=b;return p}return[0,f]}}function
-nF(c,b,a){var
-d=aA(0,a);return e(function(a){return m(a,b)?a$(c):t},d)}function
-nG(c,b,a){if(b){if(a){var
-d=nG(c,b[2],a[2]);return z(aH(b[1],c,a[1]),d)}return t}return t}function
-nH(a,j){switch(j){case
+nM(c,b,a){var
+e=ax(0,a);return d(function(a){return m(a,b)?aV(c):t},e)}function
+nN(c,b,a){if(b){if(a){var
+d=nN(c,b[2],a[2]);return w(aB(b[1],c,a[1]),d)}return t}return t}function
+nO(b,j){switch(j){case
 0:var
-d=aT(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
+d=aX(b[2],b[1]),e=b[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
-f=aT(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-c=dO(G(a[1],a[2]),b),h=aT(c,a[2]),i=aT(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
-hk(d,c,a){if(a)var
-e=a[1],g=hk(d,[0,c],a[2]),b=x(aK,mE(function(a){return m(a[1],c)},d)),h=b?nH(e,b[1])[1]:e,f=[0,h,g];else
+f=aX(b[1],b[2]),g=b[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
+c=dP(G(b[1],b[2]),a),h=aX(c,b[2]),i=aX(b[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+fS(d,c,a){if(a)var
+e=a[1],g=fS(d,[0,c],a[2]),b=x(aH,mK(function(a){return m(a[1],c)},d)),h=b?nO(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}function
-nI(a,b){return e(function(a){var
-c=a[2];return nH(q(a[1],b,t),c)[2]},a)}function
-hl(i,b,f,a){function
-d(a){return av(b,a[1])}var
-h=0,j=_(t);function
-c(f,d,a,b){if(a){var
-h=function(a){return av(f,q(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(f,[0,d],a[2],b),n=a[1];return g(e(function(a){var
-b=s(i,a,l);return[0,e(function(b){return s(i,a,b)},k),b]},n),m)}return a}var
-k=c(b,h,f,a),l=d(a[2]);return[0,[0,e(d,a[1]),l],k]}var
-vg=_(t);function
-nJ(e,d,c){if(d){var
-f=q(e,c[2],vh),a=f?f[1]:[0,vg];if(a)var
-b=nJ([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+nP(a,b){return d(function(a){var
+c=a[2];return nO(q(a[1],b,t),c)[2]},a)}function
+hr(i,b,f,a){function
+e(a){return aq(b,a[1])}var
+h=0,j=R(t);function
+c(f,e,a,b){if(a){var
+h=function(a){return aq(f,q(e,a[2],j))},k=d(h,b[1]),l=h(b[2]),m=c(f,[0,e],a[2],b),n=a[1];return g(d(function(a){var
+b=r(i,a,l);return[0,d(function(b){return r(i,a,b)},k),b]},n),m)}return a}var
+k=c(b,h,f,a),l=e(a[2]);return[0,[0,d(e,a[1]),l],k]}var
+vw=R(t);function
+nQ(e,d,c){if(d){var
+f=q(e,c[2],vx),a=f?f[1]:[0,vw];if(a)var
+b=nQ([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return vi}function
-fN(b,a){return ag(function(a){return m(b,a)},a)}function
-cW(d,b,a){if(b)if(a)var
-e=a[1],f=b[1],c=[0,cr(function(b,a){return[0,aI(d,b,a)]},f,e)];else
+g=a;return g}return vy}function
+cY(b,a){return ag(function(a){return m(b,a)},a)}function
+cZ(d,b,a){if(b)if(a)var
+e=a[1],f=b[1],c=[0,cs(function(b,a){return[0,aK(d,b,a)]},f,e)];else
 var
 c=a;else
 var
 c=b;return c}function
-cu(b,a){return bs(b,eN(a))}function
-hm(f,e,d,c,b){if(e)if(d)if(c)if(b)var
-g=e[1],h=hm(f,e[2],d[2],c[2],b[2]),a=[0,Lb(f,g[1],g[2],d[1],c[1],b[1]),h];else
+cw(b,a){return bu(b,eT(a))}function
+hs(f,e,d,c,b){if(e)if(d)if(c)if(b)var
+g=e[1],h=hs(f,e[2],d[2],c[2],b[2]),a=[0,Lz(f,g[1],g[2],d[1],c[1],b[1]),h];else
 var
 a=b;else
 var
@@ -2137,159 +2148,218 @@ var
 a=d;else
 var
 a=e;return a}function
-bQ(b,a){return q(a,b[2],nK)}function
-nL(d,b,a,c){if(m(a,c)){var
-f=bQ(b,a),e=function(a){return eH(d,a)};return x(function(a){return x(e,a)},f)}var
-g=bQ(b,c);return cW(d,bQ(b,a),g)}function
-nM(b,a){return q(a,e(as,b),0)}function
-nN(a){if(a){var
-b=a[1],c=nN(a[2]);return g(e(function(a){return[0,b,a]},a),c)}return a}function
-jB(a,b){var
-c=aA(0,f(a));return nN(aW(function(c){return fN(nM(a,c),b)},c))}function
-nO(a){if(a){var
-d=a[1],b=d?d[1]:[0,_(t)];if(b)var
-c=nO(a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+bT(b,a){return q(a,b[2],nR)}function
+nS(d,b,a,c){if(m(a,c)){var
+f=bT(b,a),e=function(a){return eM(d,a)};return x(function(a){return x(e,a)},f)}var
+g=bT(b,c);return cZ(d,bT(b,a),g)}function
+nT(b,a){return q(a,d(ao,b),0)}function
+nU(a){if(a){var
+b=a[1],c=nU(a[2]);return g(d(function(a){return[0,b,a]},a),c)}return a}function
+ht(a,b){var
+c=ax(0,f(a));return nU(aP(function(c){return cY(nT(a,c),b)},c))}function
+nV(a){if(a){var
+d=a[1],b=d?d[1]:[0,R(t)];if(b)var
+c=nV(a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return vj}function
-hn(h,a,d,c){var
-b=nI(a,c),f=jB(a,d);return g(b,e(function(a){if(m(a[1],a[2])){var
+e=b;return e}return vz}function
+fT(h,a,e,c){var
+b=nP(a,c),f=ht(a,e);return g(b,d(function(a){if(m(a[1],a[2])){var
 c=q(a[1],b,0);if(c)var
-d=c[1],f=[0,an(s(h,d,d)),0];else
+e=c[1],f=[0,aj(r(h,e,e)),0];else
 var
 f=c;return f}var
 g=q(a[1],b,0);return y(function(c){var
-d=q(a[2],b,0);return e(function(a){return s(h,c,a)},d)},g)},f))}function
-nP(a,c,i,p,o,g,n){var
-d=a9(c);return l(function(d){var
-f=h(n,d);if(f){var
-q=s(a,o,f[1]),j=B(L(a,b),q),r=i?B(j,av(d,i[1])):j,k=function(b){function
-f(c){return s(a,b,av(d,c))}var
-g=e(function(a){return e(f,a)},p);return aX(a,c,aV($([0,r,0],c),g))},l=k(an(g));if(l)return k(Q(an(g)));var
+e=q(a[2],b,0);return d(function(a){return r(h,c,a)},e)},g)},f))}function
+nW(b,c,i,p,o,g,n){var
+e=a4(c);return k(function(e){var
+f=h(n,e);if(f){var
+q=r(b,o,f[1]),j=B(J(b,a),q),s=i?B(j,aq(e,i[1])):j,k=function(a){function
+f(c){return r(b,a,aq(e,c))}var
+g=d(function(a){return d(f,a)},p);return aU(b,c,aL(X([0,s,0],c),g))},l=k(aj(g));if(l)return k(N(aj(g)));var
 m=l}else
 var
-m=f;return m},d)}function
-nQ(c,b,a){if(a){var
+m=f;return m},e)}function
+nX(c,b,a){if(a){var
 d=a[2];if(c){var
-f=nQ(c[1],b,d);return[0,a[1],f]}var
+f=nX(c[1],b,d);return[0,a[1],f]}var
 e=[0,b,d]}else
 var
 e=a;return e}function
-eR(a,g){var
-b=aW(function(e){var
-c=q(e,a,t),b=D(c[1],d),f=b?D(d,c[2]):b;return J(f)},g);if(b){if(b[2])return a;var
-f=b[1],c=q(f,a,t),e=I(d,c[1])?c[1]:c[2];return nQ(f,[0,e,e],a)}return a}function
-nR(c,a){if(a)var
-b=a[2],f=nR(c,b),g=b?b[1]:e(uv,c),d=[0,[0,a[1],g],f];else
+eW(a,g){var
+b=aP(function(d){var
+c=q(d,a,t),b=D(c[1],e),f=b?D(e,c[2]):b;return L(f)},g);if(b){if(b[2])return a;var
+f=b[1],c=q(f,a,t),d=I(e,c[1])?c[1]:c[2];return nX(f,[0,d,d],a)}return a}function
+nY(c,a){if(a)var
+b=a[2],f=nY(c,b),g=b?b[1]:d(uL,c),e=[0,[0,a[1],g],f];else
 var
-d=a;return d}function
-jC(a){return a?nR(a[1],a):a}function
-dm(c,d,b,a){if(d){var
+e=a;return e}function
+jF(a){return a?nY(a[1],a):a}function
+du(c,d,b,a){if(d){var
 e=d[1];if(a){var
-f=dm(c,e,b,a[2]);return[0,a[1],f]}return[0,c,dm(c,e,b,0)]}return a?[0,b,a[2]]:[0,b,0]}function
-ho(a,c,b){if(c)if(b)var
-g=b[2],e=b[1],h=c[2],d=c[1],i=ho(a,h,g),j=function(c,b){var
-f=s(a,e,b);return z(s(a,d,c),f)},k=function(b){return s(a,e,b)},l=aL(function(b){return s(a,d,b)},k,j,g,h),f=[0,[0,s(a,z(d,d),e),l],i];else
+f=du(c,e,b,a[2]);return[0,a[1],f]}return[0,c,du(c,e,b,0)]}return a?[0,b,a[2]]:[0,b,0]}function
+hu(a,c,b){if(c)if(b)var
+g=b[2],e=b[1],h=c[2],d=c[1],i=hu(a,h,g),j=function(c,b){var
+f=r(a,e,b);return w(r(a,d,c),f)},k=function(b){return r(a,e,b)},l=aJ(function(b){return r(a,d,b)},k,j,g,h),f=[0,[0,r(a,w(d,d),e),l],i];else
 var
 f=b;else
 var
 f=c;return f}function
-dn(d,c,b,a){return dm(t,c,eP(d,a,b),a)}function
-jD(a,f,e,b,d,c){var
-g=aA(0,b);return am(function(g,c){var
-h=dn(a,f,e,nF(a,g,b));return aV(c,fK(a,Q(d),h))},c,g)}function
-jE(a,d,c,j,i,h,g,f){var
-k=dn(a,d,c,e(function(b){return L(a,E(h,b))},i));return aV(f,ho(a,dn(a,d,c,e(function(c){return aH(c,G(g,b),a$(a))},j)),k))}function
-jF(a,h,g,q,f,p,o,n){var
-d=p,c=o,b=n;for(;;){if(d){if(c){var
-k=c[1],l=k[1],i=d[1],m=dn(a,h,g,e(function(b){return aH(b,f,a$(a))},i)),r=b5(l[2]),s=dn(a,h,g,dh(f,l[1],r,i)),t=aV(b,ho(a,e(an,m),s)),u=k[2],j=fM(a,q,m,e(function(c){return function(b){return dn(a,h,g,e(an,dh(f,b[1],b[2],c)))}}(i),u),t);if(j){var
-d=d[2],c=c[2],b=j[1];continue}return j}return[0,b]}return[0,b]}}function
-nS(g,b,f,a){if(a)var
-c=a[2],d=a[1],h=q(b,c,t),e=[0,d,dm(t,b,z(s(g,f,d),h),c)];else
+dv(d,c,b,a){return du(t,c,d2(d,a,b),a)}function
+jG(a,f,e,b,d,c){var
+g=ax(0,b);return an(function(g,c){var
+h=dv(a,f,e,nM(a,g,b));return aL(c,fP(a,N(d),h))},c,g)}function
+jH(b,e,c,j,i,h,g,f){var
+k=dv(b,e,c,d(function(a){return J(b,E(h,a))},i));return aL(f,hu(b,dv(b,e,c,d(function(c){return aB(c,G(g,a),aV(b))},j)),k))}function
+jI(a,h,g,q,f,p,o,n){var
+e=p,c=o,b=n;for(;;){if(e){if(c){var
+k=c[1],l=k[1],i=e[1],m=dv(a,h,g,d(function(b){return aB(b,f,aV(a))},i)),r=bR(l[2]),s=dv(a,h,g,cu(f,l[1],r,i)),t=aL(b,hu(a,d(aj,m),s)),u=k[2],j=fR(a,q,m,d(function(c){return function(b){return dv(a,h,g,d(aj,cu(f,b[1],b[2],c)))}}(i),u),t);if(j){var
+e=e[2],c=c[2],b=j[1];continue}return j}return[0,b]}return[0,b]}}function
+nZ(g,b,f,a){if(a)var
+c=a[2],d=a[1],h=q(b,c,t),e=[0,d,du(t,b,w(r(g,f,d),h),c)];else
 var
 e=a;return e}function
-nT(a,b,m,D,C,B){var
+n0(a,b,m,D,C,B){var
 i=C,h=B;for(;;){if(i){var
-n=i[1],o=n[1],j=o[2],p=n[2],c=dn(a,b,m,o[1]);if(p){var
-r=I(d,j[1]);if(r)var
-E=a$(a),f=bA(Q(co(q(b,c,t),E,j))),k=bA(j),v=dm(t,b,f,0),w=q(b,c,t),x=aV(h,ho(a,v,dm(t,b,z(an(s(a,f,k)),w),c))),y=q(b,c,t),A=[0,[0,k,dm(t,b,z(s(a,f,k),y),c)],x],F=e(function(e){return function(c){var
-d=dn(a,b,m,c[1]);return nS(a,b,e,[0,an(c[2]),d])}}(f),p),G=e(function(a){return t},c),g=fM(a,[0,t,D],nS(a,b,f,[0,a$(a),G]),F,A);else
+n=i[1],o=n[1],j=o[2],p=n[2],c=dv(a,b,m,o[1]);if(p){var
+s=I(e,j[1]);if(s)var
+E=aV(a),f=br(N(b8(q(b,c,t),E,j))),k=br(j),v=du(t,b,f,0),x=q(b,c,t),y=aL(h,hu(a,v,du(t,b,w(aj(r(a,f,k)),x),c))),z=q(b,c,t),A=[0,[0,k,du(t,b,w(r(a,f,k),z),c)],y],F=d(function(e){return function(c){var
+d=dv(a,b,m,c[1]);return nZ(a,b,e,[0,aj(c[2]),d])}}(f),p),G=d(function(a){return t},c),g=fR(a,[0,t,D],nZ(a,b,f,[0,aV(a),G]),F,A);else
 var
-g=r}else
+g=s}else
 var
-g=[0,[0,[0,bA(j),c],h]];if(g){var
-l=fG(a,g[1]);if(l){var
+g=[0,[0,[0,br(j),c],h]];if(g){var
+l=eP(a,g[1]);if(l){var
 i=i[2],h=l[1];continue}var
 u=l}else
 var
 u=g;return u}return[0,h]}}function
-nU(c,b,a){if(b){var
-d=a?[0,c,nU(c,b[1],a[2])]:a;return d}return a}function
-jG(b,a){return am(function(c,a){return z(P(b,c),a)},t,a)}function
-nV(b,a,d,c){function
-e(d,c){return B(d,s(b,a,c))}function
-f(c){return Q(s(b,a,c))}return aL(function(a){return a},f,e,d,c)}function
-nW(a,c,b){if(c)if(b)var
-g=b[2],d=b[1],h=c[2],e=c[1],j=nW(a,h,g),i=s(a,e,d),k=function(c,b){var
-f=s(a,d,b);return z(s(a,e,c),f)},l=function(b){return s(a,d,b)},m=aL(function(b){return s(a,e,b)},l,k,g,h),f=[0,[0,z(i,i),m],j];else
+jJ(c,b,a){if(b){var
+d=a?[0,c,jJ(c,b[1],a[2])]:a;return d}return a}function
+jK(b,a){return an(function(c,a){return w(Q(b,c),a)},t,a)}function
+n1(b,a,d,c){function
+e(d,c){return B(d,r(b,a,c))}function
+f(c){return N(r(b,a,c))}return aJ(function(a){return a},f,e,d,c)}function
+jL(a,c,b){if(c)if(b)var
+g=b[2],d=b[1],h=c[2],e=c[1],j=jL(a,h,g),i=r(a,e,d),k=function(c,b){var
+f=r(a,d,b);return w(r(a,e,c),f)},l=function(b){return r(a,d,b)},m=aJ(function(b){return r(a,e,b)},l,k,g,h),f=[0,[0,w(i,i),m],j];else
 var
 f=b;else
 var
 f=c;return f}function
-nX(b,d,f,a){if(a){var
-c=a[1],i=a[2],j=nX(b,d,aU(f),i);if(c)var
-k=c[2],l=e(function(a){return s(b,d,Q(a))},k),m=c[1],n=f?t:a$(b),g=[0,s(b,d,B(n,m)),l];else
+n2(b,e,f,a){if(a){var
+c=a[1],i=a[2],j=n2(b,e,aY(f),i);if(c)var
+k=c[2],l=d(function(a){return r(b,e,N(a))},k),m=c[1],n=f?t:aV(b),g=[0,r(b,e,B(n,m)),l];else
 var
 g=c;var
 h=[0,g,j]}else
 var
 h=a;return h}function
-vo(a,b,o,c,k,j,i){if(H(j[1],d))return jz(a,b,c,k,i);var
-l=bA(j);function
-p(g){if(I(d,j[1]))return[0,i];var
-c=h(g,0),k=f(b),e=m(f(c),k),n=e?[0,aV(i,nX(a,l,o,c))]:e;return n}var
-q=bN(a,eP(a,c,b));if(q)var
-n=q[1],r=nU(t,o,b),y=e(function(b){return s(a,b,n)},r),u=nV(a,s(a,s(a,an(jG(a,r)),n),n),y,c),A=p(function(b){return nW(a,c,u)}),w=function(c,b){return z(c,s(a,l,b))},x=function(b){return s(a,l,b)},g=A,v=aL(function(a){return a},x,w,k,u);else
+vE(a,b,o,c,k,j,i){if(H(j[1],e))return jD(a,b,c,k,i);var
+l=br(j);function
+p(g){if(I(e,j[1]))return[0,i];var
+c=h(g,0),k=f(b),d=m(f(c),k),n=d?[0,aL(i,n2(a,l,o,c))]:d;return n}var
+q=bP(a,d2(a,c,b));if(q)var
+n=q[1],s=jJ(t,o,b),z=d(function(b){return r(a,b,n)},s),u=n1(a,r(a,r(a,aj(jK(a,s)),n),n),z,c),A=p(function(b){return jL(a,c,u)}),x=function(c,b){return w(c,r(a,l,b))},y=function(b){return r(a,l,b)},g=A,v=aJ(function(a){return a},y,x,k,u);else
 var
-g=p(function(a){return $([0,t,0],f(b))}),v=k;return g?jz(a,b,c,v,g[1]):g}function
-nY(a,g,y,S,c,R,O){var
-i=R,h=O;for(;;){if(i){var
-A=i[1],n=A[2],j=A[1];if(y&&I(d,n[1])){var
-f=y[1],o=bA(n),k=aV(h,fK(a,o,f)),C=0;if(fL(c)||fL(j))C=1;else{var
-l=eQ(a,g,j),D=a$(a),E=eQ(a,g,c),b=co([0,eQ(a,g,c),E],D,[0,l,l])[1],p=I(d,l),q=p?I(d,b):p;if(q){var
-F=an(g7(a,[0,b,b])),G=function(b){return function(d,c){return B(s(a,[0,b,b],d),c)}}(b),H=[0,b,b],m=aL(function(c){return function(b){return s(a,c,b)}}(H),Q,G,j,c),J=jG(a,f),K=z(a$(a),J),L=a$(a),r=bA(co(eP(a,m,f),L,K)),M=P(a,r),t=z(jG(a,nV(a,r,m,f)),M),u=I(d,t[1]);if(u)var
-v=b5(B(F,co(o,a$(a),t))),N=I(d,v[1])?aV(k,fK(a,v,m)):k,w=[0,N];else
+g=p(function(a){return X([0,t,0],f(b))}),v=k;return g?jD(a,b,c,v,g[1]):g}function
+hv(a,g,z,S,c,R,P){var
+i=R,h=P;for(;;){if(i){var
+A=i[1],n=A[2],j=A[1];if(z&&I(e,n[1])){var
+f=z[1],o=br(n),k=aL(h,fP(a,o,f)),C=0;if(fQ(c)||fQ(j))C=1;else{var
+l=eV(a,g,j),D=aV(a),E=eV(a,g,c),b=b8([0,eV(a,g,c),E],D,[0,l,l])[1],p=I(e,l),q=p?I(e,b):p;if(q){var
+F=aj(hc(a,[0,b,b])),G=function(b){return function(d,c){return B(r(a,[0,b,b],d),c)}}(b),H=[0,b,b],m=aJ(function(c){return function(b){return r(a,c,b)}}(H),N,G,j,c),J=jK(a,f),K=w(aV(a),J),L=aV(a),s=br(b8(d2(a,m,f),L,K)),M=Q(a,s),t=w(jK(a,n1(a,s,m,f)),M),u=I(e,t[1]);if(u)var
+v=bR(B(F,b8(o,aV(a),t))),O=I(e,v[1])?aL(k,fP(a,v,m)):k,x=[0,O];else
 var
-w=u;var
-x=w}else
+x=u;var
+y=x}else
 var
-x=q;var
-e=x}if(C)var
-e=[0,k]}else
+y=q;var
+d=y}if(C)var
+d=[0,k]}else
 var
-e=vo(a,g,S,c,j,n,h);if(e){var
-i=i[2],h=e[1];continue}return e}return[0,h]}}function
-nZ(e,d,a){return am(function(b,a){return z(am(function(a,b){var
-c=q(a[1],d,t);return z(aH(a[2],e,c),b)},t,b),a)},t,a)}function
-n0(c,j,i,h,a,f,b){if(a){var
+d=vE(a,g,S,c,j,n,h);if(d){var
+i=i[2],h=d[1];continue}return d}return[0,h]}}function
+n3(a,c){return an(function(b,a){return m(b[1],c)?G(b[2],a):a},e,a)}function
+jM(e,d,a){return an(function(b,a){return w(an(function(a,b){var
+c=q(a[1],d,t);return w(aB(a[2],e,c),b)},t,b),a)},t,a)}function
+n4(c,j,i,h,a,f,b){if(a){var
 k=function(a){var
-b=_(t);return av(i,q(h,a[2],b))},m=e(k,b[1]),n=k(b[2]),l=bG(d,f),o=bx(f),p=n0(c,j,i,[0,h],a[2],o,b),r=a[1];return g(e(function(a){var
-b=H(l,d)?t:aH(l,j,a),f=s(c,a,n);return[0,[0,e(function(b){return s(c,a,b)},m),f],b]},r),p)}return a}function
-n1(a){if(a)var
+b=R(t);return aq(i,q(h,a[2],b))},m=d(k,b[1]),n=k(b[2]),l=bz(e,f),o=bp(f),p=n4(c,j,i,[0,h],a[2],o,b),s=a[1];return g(d(function(a){var
+b=H(l,e)?t:aB(l,j,a),f=r(c,a,n);return[0,[0,d(function(b){return r(c,a,b)},m),f],b]},s),p)}return a}function
+n5(h,g,b,f,e,a){function
+c(a){return aq(b,a[1])}var
+i=n4(h,g,b,0,f,e,a),j=c(a[2]);return[0,[0,d(c,a[1]),j],i]}function
+n6(a){var
+b=H(a[1][1],e),c=b?H(a[1][2],e):b,d=c?H(a[2][1],e):c,f=d?H(a[2][2],e):d;if(f){if(a[3])return 0;var
+g=1}else
+var
+g=f;return g}function
+n7(b,a){var
+c=M(ax(0,f(b)),b);return k(function(b){var
+c=H(b[2],e);if(c)return c;var
+d=[0,a[2],a[1]];return ag(function(a){var
+c=R(t);return L(n6(q(b[1],a[2],c)))},d)},c)}function
+n8(g,f,c){var
+b=g,a=f;for(;;){if(b){var
+d=b[2],e=n8(d,a,c);if(e){var
+i=[0,b[1],a],b=d,a=i;continue}return e}return h(c,a)}}function
+n9(a){return typeof
+a==="number"?0:1}function
+n_(b,a){var
+c=w(b[2],a[2]),d=a[1],e=b[1];function
+f(a){return a}return[0,aJ(function(a){return a},f,w,e,d),c]}function
+n$(g,f,c){var
+b=g,a=f;for(;;){if(a){var
+d=a[2],e=n$(b,d,c);if(e){var
+b=n_(b,a[1]),a=d;continue}return e}return h(c,b)}}function
+oa(a,b){if(a)var
+d=aw(a,b),e=oa(a[1],d),c=[0,ap(a,b),e];else
+var
+c=a;return c}function
+ob(b,i,p,h,c,w,g,e,o){if(g){var
+a=f(i),q=oa(a,d(function(a){return aB(a,w,aV(b))},g)),x=gZ(a,P(a,vH)),r=m(gZ(vI,f(g)),x),s=r?m(f(c),a):r;if(s)var
+j=aP(function(a){return n9(a[1])},e),l=mL(g1,y(function(b){var
+a=b[1];return typeof
+a==="number"?0:0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]},j)),u=aP(function(b){var
+a=b[1];if(typeof
+a!=="number"&&1===a[0])return m(a[1],a[2]);return 0},j),v=d(function(e){var
+b=e[2];function
+a(a){return N(aj(aj(a)))}var
+c=a(b[2]);return[0,d(a,b[1]),c]},u),n=ae(f(l),vG),z=n?n8(l,0,function(d){function
+f(d){var
+e=jJ([0,t,0],h,X([0,d[2],0],a));return aU(b,a,aL(aL(q,jL(b,c,d[1])),e))}var
+e=[0,0,t];return n$(an(function(f,e){var
+a=f[1];if(typeof
+a==="number")var
+b=0;else
+if(0===a[0])var
+b=cY(a[1],d);else
+var
+c=cY(a[1],d),b=c?cY(a[2],d):c;return b?n_(f[2],e):e},e,j),v,f)}):n,k=z;else
+var
+k=s;if(k){var
+A=aL(o,d(function(a){return d(N,a)},q));return hv(b,i,p,h,c,d(aH,aP(function(a){return L(n9(a[1]))},e)),A)}return k}return hv(b,i,p,h,c,d(aH,e),o)}function
+oc(a,e,c,b){if(a){var
+f=[0,b[2],b[1]],h=k(function(a){var
+b=R(t);return n6(q(c,a[2],b))},f)?0:bz(0,e),i=bp(e),j=oc(a[2],i,[0,c],b),l=a[1];return g(d(function(a){return h},l),j)}return a}function
+jN(d,c,b){var
+a=q(b,d,vK);return 2<=a[2]?0:cY(a[1],c)}function
+od(a){if(a)var
 b=a[1],c=[0,b[1],[0,b[2],0]];else
 var
 c=a;return c}function
-jH(f,d,c,b,a){var
-g=e(_,c);return db(0,b7(f,dj(0,a),g),b,d)}function
+jO(f,e,c,b,a){var
+g=d(R,c);return dk(0,b_(f,cX(0,a),g),b,e)}function
 ad(a){if(a){var
 b=a[1];if(b)var
 c=ad(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return vq}function
-fO(b,a){if(a){var
-h=a[1],n=h[1],c=ad(e(function(a){return q(a,b,0)},n));if(c){var
+d=b;return d}return vL}function
+fU(b,a){if(a){var
+h=a[1],n=h[1],c=ad(d(function(a){return q(a,b,0)},n));if(c){var
 f=q(h[2],b,0);if(f){var
-i=f[1],g=fO(b,a[2]);if(g)var
-j=I(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
+i=f[1],g=fU(b,a[2]);if(g)var
+j=I(e,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
 l=k}else
@@ -2297,21 +2367,21 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return vr}function
-cX(d,c,b){var
-a=fO(d,c);return a?h(b,a[1]):a}function
-dp(a,b){return l(function(c){var
+m=c;return m}return vM}function
+c0(d,c,b){var
+a=fU(d,c);return a?h(b,a[1]):a}function
+c1(a,b){return k(function(c){var
 a=q(c,b,0),d=a?1:a;return d},a)}function
-hp(b,a){return b?jx(a,b[1]):a}function
-jI(b,a){return b?nk(a,b[1]):a}function
-jJ(h,g,b,f){var
+hw(b,a){return b?hm(a,b[1]):a}function
+jP(b,a){return b?nr(a,b[1]):a}function
+jQ(h,g,b,f){var
 a=q(f,h,0);if(a){var
 c=a[1];if(b){var
-i=nk(c,b[1]),e=a9(g);return l(function(a){return D(d,av(a,i)[1])},e)}return D(d,c[2][1])}return a}function
-jK(f,d,a){function
-c(a){return aH(a,d,L(f,b))}if(a){var
-g=e(c,a[2]);return[0,c(a[1]),t,g]}return _(t)}function
-hq(b,a){var
+i=nr(c,b[1]),d=a4(g);return k(function(a){return D(e,aq(a,i)[1])},d)}return D(e,c[2][1])}return a}function
+jR(f,e,b){function
+c(b){return aB(b,e,J(f,a))}if(b){var
+g=d(c,b[2]);return[0,c(b[1]),t,g]}return R(t)}function
+hx(b,a){var
 c=q(a[1],b,0);if(c){var
 d=q(a[2],b,0);if(d)var
 e=q(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
@@ -2320,152 +2390,152 @@ f=d;var
 g=f}else
 var
 g=c;return g}function
-fP(b,a){return ad(e(function(a){return q(a,b,0)},a))}function
-eS(c,k,ab,E,i,h,j,g,a){switch(g[0]){case
+fV(b,a){return ad(d(function(a){return q(a,b,0)},a))}function
+eX(c,l,ab,E,i,h,j,g,b){switch(g[0]){case
 0:var
 u=g[1];if(typeof
-a!=="number")switch(a[0]){case
+b!=="number")switch(b[0]){case
 0:var
-ac=dp(E,i);if(ac){var
-aI=a[2],aJ=a[1],aK=hp(j,_(u));return cX(i,k,function(a){return fH(c,h,aK,aJ,aI,a)})}return ac;case
+ac=c1(E,i);if(ac){var
+aI=b[2],aJ=b[1],aK=hw(j,R(u));return c0(i,l,function(a){return fM(c,h,aK,aJ,aI,a)})}return ac;case
 1:var
-ae=dp(E,i);if(ae){var
-aL=a[2],aM=a[1],aN=hp(j,_(u));return cX(i,ab,function(a){return fH(c,h,aN,aM,aL,a)})}return ae;case
+ae=c1(E,i);if(ae){var
+aM=b[2],aN=b[1],aO=hw(j,R(u));return c0(i,ab,function(a){return fM(c,h,aO,aN,aM,a)})}return ae;case
 2:var
-af=dp(E,i);if(af){var
-ag=H(u[1],d),ah=ag?H(u[2],d):ag;if(ah){var
-aO=a[2],aP=a[1];return cX(i,k,function(a){return nj(c,h,j,aP,aO,a)})}var
+af=c1(E,i);if(af){var
+ag=H(u[1],e),ah=ag?H(u[2],e):ag;if(ah){var
+aP=b[2],aQ=b[1];return c0(i,l,function(a){return nq(c,h,j,aQ,aP,a)})}var
 ai=ah}else
 var
 ai=af;return ai}return 0;case
 1:var
 aj=g[1];if(typeof
-a==="number"){if(1===a){var
-aQ=jI(j,_(aj));return cX(i,ab,function(a){return jw(c,h,aQ,a)})}if(!a){var
-aR=jI(j,_(aj));return cX(i,k,function(a){return jw(c,h,aR,a)})}}return 0;case
+b==="number"){if(1===b){var
+aR=jP(j,R(aj));return c0(i,ab,function(a){return jB(c,h,aR,a)})}if(!b){var
+aS=jP(j,R(aj));return c0(i,l,function(a){return jB(c,h,aS,a)})}}return 0;case
 2:if(typeof
-a!=="number"&&3===a[0]){var
-ak=a[1],n=jK(c,ak,a[3]),al=g[1],aS=a[2];return cX(i,k,function(d){var
-a=hf(h,n),b=a?fH(c,h,hp(j,n),ak,aS,d):a;if(b){var
-f=n[3],g=e(function(a){return s(c,al,a)},f),i=n[2];return jw(c,h,jI(j,[0,s(c,al,n[1]),i,g]),d)}return b})}return 0;case
+b!=="number"&&3===b[0]){var
+ak=b[1],n=jR(c,ak,b[3]),al=g[1],aT=b[2];return c0(i,l,function(e){var
+a=hl(h,n),b=a?fM(c,h,hw(j,n),ak,aT,e):a;if(b){var
+f=n[3],g=d(function(a){return r(c,al,a)},f),i=n[2];return jB(c,h,jP(j,[0,r(c,al,n[1]),i,g]),e)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return jJ(i,h,j,g[1]);return 0;case
+b==="number"&&!b)return jQ(i,h,j,g[1]);return 0;case
 4:if(typeof
-a!=="number"&&0===a[0]){var
-aU=a[2],aW=a[1],aY=hp(j,_(g[2])),aZ=function(a){return fH(c,h,aY,aW,aU,a)};return cX(i,g[1],aZ)}return 0;case
+b!=="number"&&0===b[0]){var
+aV=b[2],aW=b[1],aY=hw(j,R(g[2])),aZ=function(a){return fM(c,h,aY,aW,aV,a)};return c0(i,g[1],aZ)}return 0;case
 5:if(typeof
-a==="number"&&!(3<=a))switch(a){case
-0:return jJ(i,h,j,g[1]);case
-2:return jJ(i,h,j,g[2])}return 0;case
+b==="number"&&!(3<=b))switch(b){case
+0:return jQ(i,h,j,g[1]);case
+2:return jQ(i,h,j,g[2])}return 0;case
 6:if(typeof
-a!=="number"&&8===a[0]){var
-F=hq(i,g[1]);if(F){var
-I=hq(i,g[2]);if(I){var
-J=hq(i,g[3]);if(J){var
-K=hq(i,g[4]);if(K){var
-an=K[1],ao=J[1],ap=I[1],aq=F[1],o=a[2],v=g[5],a0=a[1];if(o){var
+b!=="number"&&8===b[0]){var
+F=hx(i,g[1]);if(F){var
+I=hx(i,g[2]);if(I){var
+K=hx(i,g[3]);if(K){var
+L=hx(i,g[4]);if(L){var
+am=L[1],ao=K[1],ap=I[1],ar=F[1],o=b[2],v=g[5],a0=b[1];if(o){var
 p=o[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-aG=[0,o[1],p[1],q[1]],r=np(function(f){function
-g(a){return aH(a,a0,L(c,b))}if(f){var
-a=e(g,f[2]),d=g(f[1]),h=g_(a),i=G(d[2],h),j=g_(a);return[0,d,[0,aT(d[1],j),i],a]}return _(t)},aG),Q=l(function(a){return m(f(a),[0,h])},o),R=Q?hh(c,h,j,v,r,aq,ao):Q,S=R?hh(c,h,j,v,r,aq,an):R,T=S?hh(c,h,j,v,r,ap,ao):S;if(T)return hh(c,h,j,v,r,ap,an);var
-U=T}else
-var
-U=q;var
+aH=[0,o[1],p[1],q[1]],s=nw(function(f){function
+g(b){return aB(b,a0,J(c,a))}if(f){var
+b=d(g,f[2]),e=g(f[1]),h=hf(b),i=G(e[2],h),j=hf(b);return[0,e,[0,aX(e[1],j),i],b]}return R(t)},aH),P=k(function(a){return m(f(a),[0,h])},o),S=P?ho(c,h,j,v,s,ar,ao):P,T=S?ho(c,h,j,v,s,ar,am):S,U=T?ho(c,h,j,v,s,ap,ao):T;if(U)return ho(c,h,j,v,s,ap,am);var
 V=U}else
 var
-V=p;var
+V=q;var
 W=V}else
 var
-W=o;return W}var
-ar=K}else
+W=p;var
+X=W}else
 var
-ar=J;var
-as=ar}else
+X=o;return X}var
+as=L}else
 var
-as=I;var
+as=K;var
 at=as}else
 var
-at=F;return at}return 0;case
+at=I;var
+au=at}else
+var
+au=F;return au}return 0;case
 7:if(typeof
-a!=="number"&&0===a[0]){var
-au=a[2],aw=a[1],a1=g[2],a2=g[1];return cX(i,k,function(e){var
-a=m(f(e),h),d=a?m(f(au),h):a;if(d){var
-g=function(a){if(a){var
-d=a[2],e=m(f(d),h);if(e){var
-i=dY(aw,dZ(aw,au,L(c,b),d));return aX(c,h,aV(hi(c,a2,a1,a[1][2],d),i))}var
+b!=="number"&&0===b[0]){var
+av=b[2],aw=b[1],a1=g[2],a2=g[1];return c0(i,l,function(e){var
+b=m(f(e),h),d=b?m(f(av),h):b;if(d){var
+g=function(b){if(b){var
+d=b[2],e=m(f(d),h);if(e){var
+i=dZ(aw,d0(aw,av,J(c,a),d));return aU(c,h,aL(hp(c,a2,a1,b[1][2],d),i))}var
 g=e}else
 var
-g=a;return g},i=j?j[1]:_(t);return ju(h,jv(i,e),g)}return d})}return 0;case
+g=b;return g},i=j?j[1]:R(t);return jz(h,jA(i,e),g)}return d})}return 0;case
 8:if(typeof
-a==="number"&&5<=a){var
-a3=g[3],a4=g[2],a5=function(a){return nj(c,h,j,a4,a3,a)};return cX(i,g[1],a5)}return 0;case
+b==="number"&&5<=b){var
+a3=g[3],a4=g[2],a5=function(a){return nq(c,h,j,a4,a3,a)};return c0(i,g[1],a5)}return 0;case
 11:if(typeof
-a==="number"&&!a){var
-M=fP(i,g[1]);if(M){var
-a6=g[2],N=ad(e(function(a){return fP(i,a)},a6));if(N){var
-a7=n1(g[5]),O=fP(i,[0,g[3],[0,g[4],a7]]);if(O){var
-w=O[1];if(w){var
-y=w[2];if(y){var
-A=y[2],ax=fP(i,g[6]);if(ax){if(A)var
+b==="number"&&!b){var
+M=fV(i,g[1]);if(M){var
+a6=g[2],N=ad(d(function(a){return fV(i,a)},a6));if(N){var
+a7=od(g[5]),O=fV(i,[0,g[3],[0,g[4],a7]]);if(O){var
+y=O[1];if(y){var
+z=y[2];if(z){var
+A=z[2],ax=fV(i,g[6]);if(ax){if(A)var
 C=A[2],a8=C?C[2]?0:[0,[0,A[1][2],C[1]]]:C,D=a8;else
 var
 D=A;var
-ay=y[1][2],az=w[1][2],aA=N[1],a9=M[1],X=nP(c,h,j,aA,az,ay,function(d){return[0,eL(c,am(function(b,a){return z(P(c,av(d,b)),a)},t,a9))]});if(X)var
-Y=X;else{if(D){var
-Z=D[1],$=Z[2],aa=Z[1];return nP(c,h,j,aA,az,ay,function(f){var
-b=bA($[1]),a=cn(c,B(aa,P(c,b)));if(a){var
-d=bN(c,a[1]),e=B(aa,s(c,b,av(f,$)));return x(function(a){return s(c,e,a)},d)}return a})}var
-Y=D}return Y}var
-aB=ax}else
+ay=z[1][2],az=y[1][2],aA=N[1],a9=M[1],Y=nW(c,h,j,aA,az,ay,function(d){return[0,eR(c,an(function(b,a){return w(Q(c,aq(d,b)),a)},t,a9))]});if(Y)var
+Z=Y;else{if(D){var
+_=D[1],$=_[2],aa=_[1];return nW(c,h,j,aA,az,ay,function(f){var
+b=br($[1]),a=cq(c,B(aa,Q(c,b)));if(a){var
+d=bP(c,a[1]),e=B(aa,r(c,b,aq(f,$)));return x(function(a){return r(c,e,a)},d)}return a})}var
+Z=D}return Z}var
+aC=ax}else
 var
-aB=y;var
-aC=aB}else
-var
-aC=w;var
+aC=z;var
 aD=aC}else
 var
-aD=O;var
+aD=y;var
 aE=aD}else
 var
-aE=N;var
+aE=O;var
 aF=aE}else
 var
-aF=M;return aF}return 0;default:return 0}}function
-n2(c,a){var
-d=q(a[1],c,0);if(d)var
-g=a[2][2],b=ad(e(function(a){var
+aF=N;var
+aG=aF}else
+var
+aG=M;return aG}return 0;default:return 0}}function
+oe(c,a){var
+e=q(a[1],c,0);if(e)var
+g=a[2][2],b=ad(d(function(a){var
 b=q(a[2],c,0);return x(function(b){return[0,a[1],b]},b)},g)),h=b?[0,[0,a[2][1],b[1]]]:b,f=h;else
 var
-f=d;return f}function
-n3(b,a){return g(b,cP(a[1]))}function
-n4(a,C,A,v,u,ax,o,n,r,p,k){switch(p[0]){case
+f=e;return f}function
+of(b,a){return g(b,cQ(a[1]))}function
+og(b,C,A,v,u,ax,o,n,s,p,l){switch(p[0]){case
 9:var
-a8=p[2],a_=p[1];if(typeof
-k!=="number"&&9===k[0]){var
-ay=k[2],M=k[1],a$=k[3];if(0<a0(k[4]))return eS(a,A,v,u,o,f(n),r,p,k);var
-ba=cp(g(u,y(function(a){return g(a[1],[0,a[2],0])},v)),C),aS=e(_,ax),ab=db(0,b7(a,hj(0,n,a_),aS),ba,C),az=m(f(n),vs),aA=az?dp(u,ab):az;if(aA){var
-N=fO(ab,v);if(N){var
-O=fO(o,v);if(O){var
-R=ad(e(function(a){return n2(o,a)},a8));if(R){var
-S=ns(N[1]);if(S){var
-aC=O[1],bb=R[1],bc=S[1],ac=eL(a,am(function(f,i){function
-b(b,d){var
-a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return bO(q(d,c[3],t))}function
+a9=p[2],a_=p[1];if(typeof
+l!=="number"&&9===l[0]){var
+ay=l[2],M=l[1],a$=l[3];if(0<a1(l[4]))return eX(b,A,v,u,o,f(n),s,p,l);var
+ba=bD(g(u,y(function(a){return g(a[1],[0,a[2],0])},v)),C),aT=d(R,ax),ab=dk(0,b_(b,hq(0,n,a_),aT),ba,C),az=m(f(n),vN),aA=az?c1(u,ab):az;if(aA){var
+O=fU(ab,v);if(O){var
+P=fU(o,v);if(P){var
+S=ad(d(function(a){return oe(o,a)},a9));if(S){var
+T=nz(O[1]);if(T){var
+aD=P[1],bb=S[1],bc=T[1],ac=eR(b,an(function(f,i){function
+a(b,d){var
+a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return bQ(q(d,c[3],t))}function
 c(a){var
-b=h(a,u3),c=bw(h(a,u4),b);return bw(h(a,0),c)}var
-d=c(function(a){var
-c=b(u5,a),d=b(u6,a);return G(G(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,u7),d=b(a,u8);return G(G(b(a,0),d),c)});return z(i,P(a,eL(a,s(a,[0,e,e],g))))},t,bc)),D=aH(a$,M,L(a,b)),af=I(d,B(D,ac)[1]),ag=af?m(f(ay),vc):af,ah=ag?m(f(aC),vd):ag;if(ah){var
-E=bN(a,D);if(E){var
-aT=an(s(a,ac,E[1])),aW=B(L(a,b),aT),aY=a9(ve);return l(function(i){var
-g=e(function(b){return nt(a,i,b[1],b[2])},bb),p=h(aB(function(a){return av(i,a)}),aC),F=r?av(i,r[1]):t,N=P(a,aW),q=P(a,D),o=dY(M,dZ(M,ay,L(a,b),p)),c=aV($([0,Q(F),0],u9),o);if(g){var
-d=g[2];if(d){var
-f=d[2];if(f){if(f[2])return 0;var
-C=d[1],E=g[1],I=f[1],j=aX(a,u$,aV($([0,Q(q),0],u_),c));if(j)return l(function(D){var
-J=B(N,F),K=D[2]?C:Q(C),L=D[1]?E:Q(E),o=0;if(c){var
-b=c[1],l=0;if(b){var
-d=b[2],m=0;if(d){var
+b=h(a,vh),c=by(h(a,vi),b);return by(h(a,0),c)}var
+d=c(function(b){var
+c=a(vj,b),d=a(vk,b);return G(G(a(0,b),d),c)}),g=[0,d,d],e=c(function(b){var
+c=a(b,vl),d=a(b,vm);return G(G(a(b,0),d),c)});return w(i,Q(b,eR(b,r(b,[0,e,e],g))))},t,bc)),D=aB(a$,M,J(b,a)),af=I(e,B(D,ac)[1]),ag=af?m(f(ay),vs):af,ah=ag?m(f(aD),vt):ag;if(ah){var
+E=bP(b,D);if(E){var
+aV=aj(r(b,ac,E[1])),aW=B(J(b,a),aV),aX=a4(vu);return k(function(i){var
+g=d(function(a){return nA(b,i,a[1],a[2])},bb),p=h(aC(function(a){return aq(i,a)}),aD),F=s?aq(i,s[1]):t,O=Q(b,aW),q=Q(b,D),o=dZ(M,d0(M,ay,J(b,a),p)),c=aL(X([0,N(F),0],vn),o);if(g){var
+e=g[2];if(e){var
+f=e[2];if(f){if(f[2])return 0;var
+C=e[1],E=g[1],I=f[1],j=aU(b,vp,aL(X([0,N(q),0],vo),c));if(j)return k(function(D){var
+J=B(O,F),K=D[2]?C:N(C),L=D[1]?E:N(E),o=0;if(c){var
+a=c[1],l=0;if(a){var
+d=a[2],m=0;if(d){var
 e=d[2],n=0;if(e)if(e[2]){var
 k=0;l=1;m=1;n=1}else{var
 f=c[2],p=0;if(f){var
@@ -2476,7 +2546,7 @@ i=f[2],G=0;if(i){var
 j=i[1],H=0;if(j)if(j[2]||i[2]){var
 k=0;l=1;m=1;n=1;p=1;q=1;r=1;G=1;H=1}else
 var
-s=[0,[0,b[1],[0,d[1],[0,e[1],[0,L,0]]]],[0,[0,g[1],[0,h[1],[0,K,0]]],[0,[0,j[1],[0,I,0]],[0,[0,J,0],0]]]];else
+s=[0,[0,a[1],[0,d[1],[0,e[1],[0,L,0]]]],[0,[0,g[1],[0,h[1],[0,K,0]]],[0,[0,j[1],[0,I,0]],[0,[0,J,0],0]]]];else
 var
 s=j;if(!H)var
 t=s}else
@@ -2499,86 +2569,86 @@ var
 y=d;if(!m)var
 z=y}else
 var
-z=b;if(!l){var
+z=a;if(!l){var
 A=z;o=1}}else{var
 A=c;o=1}if(o)var
-k=A;return aX(a,vb,k)},va);var
-k=j}else
+k=A;return aU(b,vr,k)},vq);var
+l=j}else
 var
-k=f;var
-m=k}else
+l=f;var
+m=l}else
 var
-m=d;var
+m=e;var
 n=m}else
 var
-n=g;return n},aY)}var
+n=g;return n},aX)}var
 ai=E}else
 var
 ai=ah;return ai}var
-aD=S}else
+aF=T}else
 var
-aD=R;var
-aE=aD}else
+aF=S;var
+aG=aF}else
 var
-aE=O;var
-aG=aE}else
+aG=P;var
+aH=aG}else
 var
-aG=N;var
-aI=aG}else
+aH=O;var
+aI=aH}else
 var
-aI=aA;return aI}return eS(a,A,v,u,o,f(n),r,p,k);case
+aI=aA;return aI}return eX(b,A,v,u,o,f(n),s,p,l);case
 10:var
 i=p[1];if(typeof
-k!=="number"&&9===k[0]){var
-j=f(n),a3=cp(n3(u,i),C),a4=e(_,ax),a5=i[7],a6=i[6],a7=f(n),aw=db(0,b7(a,nB(i[8],a7,n,a6,a5),a4),a3,C),aJ=ae(i[8],j),aK=aJ?m(f(i[1]),j):aJ;if(aK)var
-bd=i[1],T=l(function(a){return m(f(a),j)},bd);else
+l!=="number"&&9===l[0]){var
+j=f(n),a3=bD(of(u,i),C),a5=d(R,ax),a6=i[7],a7=i[6],a8=f(n),aw=dk(0,b_(b,nI(i[8],a8,n,a7,a6),a5),a3,C),aJ=ae(i[8],j),aK=aJ?m(f(i[1]),j):aJ;if(aK)var
+bd=i[1],U=k(function(a){return m(f(a),j)},bd);else
 var
-T=aK;if(T)var
-be=n3(u,i),U=l(function(b){var
+U=aK;if(U)var
+be=of(u,i),V=k(function(b){var
 a=q(b,aw,0),c=a?1:a;return c},be);else
 var
-U=T;if(U)var
-bf=i[3],V=l(function(b){var
+V=U;if(V)var
+bf=i[3],W=k(function(b){var
 a=q(b,o,0),c=a?1:a;return c},bf);else
 var
-V=U;if(V){var
-bg=i[1],W=ad(e(function(a){return fP(aw,a)},bg));if(W){var
-X=fO(o,i[2]);if(X){var
-bh=i[4],Y=ad(e(function(a){return n2(o,a)},bh));if(Y){var
-Z=k[4],aL=k[2],aa=k[1],aM=Y[1],aN=X[1],aO=W[1],w=i[8],bi=k[3],aj=nv(a,j,w,aO),F=aH(bi,aa,L(a,b)),ak=mz(Z,d);if(ak)var
-H=ak;else
+W=V;if(W){var
+bg=i[1],Y=ad(d(function(a){return fV(aw,a)},bg));if(Y){var
+Z=fU(o,i[2]);if(Z){var
+bh=i[4],_=ad(d(function(a){return oe(o,a)},bh));if(_){var
+$=l[4],aM=l[2],aa=l[1],aN=_[1],aO=Z[1],aP=Y[1],x=i[8],bi=l[3],ak=nC(b,j,x,aP),F=aB(bi,aa,J(b,a)),al=mF($,e);if(al)var
+H=al;else
 var
-at=mA(Z,c(2,c(2,c(2,c(2,b))))),au=at?aF(0,w):at,H=au?aF(w,j):au;var
-al=H?I(d,B(F,aj)[1]):H,ao=al?m(f(aL),j):al,ap=ao?m(f(aN),j):ao;if(ap){var
-aq=J(i[5]);if(aq)var
-x=aq;else
+au=mG($,c(2,c(2,c(2,c(2,a))))),av=au?aE(0,x):au,H=av?aE(x,j):av;var
+am=H?I(e,B(F,ak)[1]):H,ao=am?m(f(aM),j):am,ap=ao?m(f(aO),j):ao;if(ap){var
+ar=L(i[5]);if(ar)var
+z=ar;else
 var
-as=l(function(c){var
-b=am(function(c,b){var
-a=bO(c[2]);return z([0,a,a],b)},t,c);return nC(a,i[6],b)},aO),x=as?l(function(c){var
-d=c[2],b=am(function(b,d){var
-c=bO(b[2][2]);return z(s(a,b[1],[0,c,c]),d)},t,d);return nC(a,i[6],b)},aM):as}else
+at=k(function(c){var
+a=an(function(c,b){var
+a=bQ(c[2]);return w([0,a,a],b)},t,c);return nJ(b,i[6],a)},aP),z=at?k(function(c){var
+d=c[2],a=an(function(a,d){var
+c=bQ(a[2][2]);return w(r(b,a[1],[0,c,c]),d)},t,d);return nJ(b,i[6],a)},aN):at}else
 var
-x=ap;if(x){var
-K=bN(a,F);if(K){var
-aZ=an(s(a,aj,K[1])),a1=B(L(a,b),aZ),a2=a9(j);return l(function(d){var
-s=e(function(b){return nt(a,d,b[1],b[2])},aM),y=h(aB(function(a){return av(d,a)}),aN),u=r?av(d,r[1]):t,z=P(a,a1),A=P(a,F),C=nw(j,w,i[9],Z),k=e(function(a){var
-b=a[2];return[0,nx(C,a[1]),b]},y),v=dY(aa,dZ(aa,aL,L(a,b),k)),c=aV($([0,Q(u),0],j),v),n=m(f(k),j),o=n?m(f(s),j):n,p=o?nz(j,c):o,q=p?aX(a,j,aV($([0,Q(A),0],j),c)):p;if(q){var
-x=a9(aU(j));return l(function(b){var
-d=B(z,u);return aX(a,[0,j],ny(c,nA(g(b,vf),s),d))},x)}return q},a2)}var
-ar=K}else
+z=ap;if(z){var
+K=bP(b,F);if(K){var
+aZ=aj(r(b,ak,K[1])),a0=B(J(b,a),aZ),a2=a4(j);return k(function(e){var
+r=d(function(a){return nA(b,e,a[1],a[2])},aN),y=h(aC(function(a){return aq(e,a)}),aO),u=s?aq(e,s[1]):t,z=Q(b,a0),A=Q(b,F),C=nD(j,x,i[9],$),l=d(function(a){var
+b=a[2];return[0,nE(C,a[1]),b]},y),v=dZ(aa,d0(aa,aM,J(b,a),l)),c=aL(X([0,N(u),0],j),v),n=m(f(l),j),o=n?m(f(r),j):n,p=o?nG(j,c):o,q=p?aU(b,j,aL(X([0,N(A),0],j),c)):p;if(q){var
+w=a4(aY(j));return k(function(a){var
+d=B(z,u);return aU(b,[0,j],nF(c,nH(g(a,vv),r),d))},w)}return q},a2)}var
+as=K}else
 var
-ar=x;return ar}var
-aP=Y}else
+as=z;return as}var
+aQ=_}else
 var
-aP=X;var
-aQ=aP}else
-var
-aQ=W;var
+aQ=Z;var
 aR=aQ}else
 var
-aR=V;return aR}return eS(a,A,v,u,o,f(n),r,p,k);default:return eS(a,A,v,u,o,f(n),r,p,k)}}function
-hr(c){var
+aR=Y;var
+aS=aR}else
+var
+aS=W;return aS}return eX(b,A,v,u,o,f(n),s,p,l);default:return eX(b,A,v,u,o,f(n),s,p,l)}}function
+hy(c){var
 a=c;for(;;){var
 b=0;if(typeof
 a==="number"){if(1!==a)b=1}else
@@ -2586,93 +2656,93 @@ switch(a[0]){case
 11:var
 a=a[3];continue;case
 12:var
-d=a[1];return l(function(a){return hr(a[2])},d);case
+d=a[1];return k(function(a){return hy(a[2])},d);case
 1:break;case
 5:case
 10:var
 a=a[1];continue;default:b=1}return b?0:1}}function
-hs(a){if(typeof
+hz(a){if(typeof
 a==="number"){if(1===a)return 0}else
 switch(a[0]){case
 1:return[0,a[1],a[2]];case
 5:var
-b=a[3],c=a[2];return[5,hs(a[1]),c,b];case
+b=a[3],c=a[2];return[5,hz(a[1]),c,b];case
 10:var
-d=a[4],e=a[3],f=a[2];return[10,hs(a[1]),f,e,d];case
+d=a[4],e=a[3],f=a[2];return[10,hz(a[1]),f,e,d];case
 11:var
-g=hs(a[3]);return[11,a[1],a[2],g]}return a}function
-cv(a){return y(function(a){return g(a[1],[0,a[2],0])},a)}function
-fQ(i,c,h,a,f){var
-j=hr(f)?c:i,d=cv(j);switch(a[0]){case
-0:return g(h,d);case
+g=hz(a[3]);return[11,a[1],a[2],g]}return a}function
+bJ(a){return y(function(a){return g(a[1],[0,a[2],0])},a)}function
+eY(i,c,h,a,f){var
+j=hy(f)?c:i,e=bJ(j);switch(a[0]){case
+0:return g(h,e);case
 3:return[0,a[1],0];case
 5:return[0,a[1],[0,a[2],0]];case
 6:var
 k=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return y(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},k);case
 9:var
 l=a[2],m=y(function(a){var
-b=e(aK,a[2][2]);return[0,a[1],b]},l);return g(cv(c),m);case
+b=d(aH,a[2][2]);return[0,a[1],b]},l);return g(bJ(c),m);case
 10:var
 b=a[1],n=b[4],o=y(function(a){var
-b=e(aK,a[2][2]);return[0,a[1],b]},n),p=g(b[3],o);return g(cv(b[2]),p);case
+b=d(aH,a[2][2]);return[0,a[1],b]},n),p=g(b[3],o);return g(bJ(b[2]),p);case
 11:var
-q=a[6],r=g(n1(a[5]),q),s=[0,a[3],[0,a[4],r]],t=g(cP(a[2]),s);return g(a[1],t);case
+q=a[6],r=g(od(a[5]),q),s=[0,a[3],[0,a[4],r]],t=g(cQ(a[2]),s);return g(a[1],t);case
 4:case
-8:return cv(a[1]);default:return d}}function
-eT(d){var
+8:return bJ(a[1]);default:return e}}function
+d3(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=J(ag(function(b){return function(a){return m(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=L(ag(function(b){return function(a){return m(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-ht(a,i,h,n,s,d,b,c){var
-j=e(_,hk(b,0,h));if(c){var
-k=e(function(a){return fN(a[1],c)?a[1]:f(h)},b),u=db(vw,function(b){return jy(a,s,j,k,b)},d,i),t=jB(b,c),aK=e(as,b),aL=e(_,h),v=db(vx,function(b){var
-g=jy(a,s,aL,aK,b6(as,b)),f=0;switch(b[0]){case
+fW(a,i,h,n,s,e,b,c){var
+j=d(R,fS(b,0,h));if(c){var
+k=d(function(a){return cY(a[1],c)?a[1]:f(h)},b),u=dk(vR,function(b){return jC(a,s,j,k,b)},e,i),t=ht(b,c),aJ=d(ao,b),aL=d(R,h),v=dk(vS,function(b){var
+g=jC(a,s,aL,aJ,b9(ao,b)),f=0;switch(b[0]){case
 3:var
-af=function(b,a){return bs},m=af,h=b[2],l=b[1];f=1;break;case
+af=function(b,a){return bu},m=af,h=b[2],l=b[1];f=1;break;case
 4:var
-aj=function(b,a){return cu},m=aj,h=b[2],l=b[1];f=1;break;case
+aj=function(b,a){return cw},m=aj,h=b[2],l=b[1];f=1;break;case
 5:var
-ak=function(b,a){return eN},u=ak,i=b[1];f=2;break;case
+ak=function(b,a){return eT},u=ak,i=b[1];f=2;break;case
 6:var
 v=b[2],w=b[1],x=w[1][1],ab=0;if(x){var
-y=v[1][1],ao=x[1];if(y){var
-ap=y[1],aq=w[1],N=function(a){return bQ(aq,a)},ar=v[1],O=function(a){return bQ(ar,a)},m=function(c,b,e,d){var
-f=br(a,ao,d),g=bs(br(a,ap,e),f),h=O(c),i=cW(a,N(b),h),j=O(b);return bs(bs(cW(a,N(c),j),i),g)},h=v,l=w;f=1;ab=1}else
+y=v[1][1],ap=x[1];if(y){var
+aq=y[1],ar=w[1],N=function(a){return bT(ar,a)},as=v[1],O=function(a){return bT(as,a)},m=function(c,b,e,d){var
+f=bt(a,ap,d),g=bu(bt(a,aq,e),f),h=O(c),i=cZ(a,N(b),h),j=O(b);return bu(bu(cZ(a,N(c),j),i),g)},h=v,l=w;f=1;ab=1}else
 var
 P=y}else
 var
 P=x;if(!ab)var
-d=P;break;case
+e=P;break;case
 7:var
 z=b[2],A=g[1],ac=0;if(A){var
 B=z[1][1],at=A[1];if(B){var
-au=B[1],Q=function(a){return bQ(g,a)},av=z[1],R=function(a){return bQ(av,a)},aw=function(c,b,e,d){var
-f=R(b),g=cW(a,Q(c),f),h=br(a,at,d),i=R(c);return d0(a,au,cu(cu(e,bs(cW(a,Q(b),i),h)),g))},m=aw,h=z,l=b[1];f=1;ac=1}else
+au=B[1],Q=function(a){return bT(g,a)},av=z[1],R=function(a){return bT(av,a)},aw=function(c,b,e,d){var
+f=R(b),g=cZ(a,Q(c),f),h=bt(a,at,d),i=R(c);return d1(a,au,cw(cw(e,bu(cZ(a,Q(b),i),h)),g))},m=aw,h=z,l=b[1];f=1;ac=1}else
 var
 S=B}else
 var
 S=A;if(!ac)var
-d=S;break;case
+e=S;break;case
 8:var
 C=b[1],D=C[1][1];if(D){var
 ax=D[1],u=function(d,c,b){var
-e=br(a,ax,b),f=bs(nL(a,C[1],d,c),e);return br(a,dl(a),f)},i=C;f=2}else
+e=bt(a,ax,b),f=bu(nS(a,C[1],d,c),e);return bt(a,dt(a),f)},i=C;f=2}else
 var
-d=D;break;case
+e=D;break;case
 9:var
 E=g[1];if(E){var
-ay=E[1],az=aI(a,dl(a),ay),aA=function(d,c,b){var
-e=nL(a,g,d,c);return d0(a,az,cu(b,br(a,dl(a),e)))},u=aA,i=b[1];f=2}else
+ay=E[1],az=aK(a,dt(a),ay),aA=function(d,c,b){var
+e=nS(a,g,d,c);return d1(a,az,cw(b,bt(a,dt(a),e)))},u=aA,i=b[1];f=2}else
 var
-d=E;break;case
+e=E;break;case
 10:var
 F=b[4],G=b[3],H=b[2],T=b[1],I=H[1][1],M=0;if(I){var
 n=I[1],J=G[1][1],ad=0;if(J){var
 o=J[1],K=F[1][1],ae=0;if(K){var
-L=jq(a,n,o,K[1]);if(L){var
-U=L[1],j=U[2],k=U[1],c=function(b,c){return br(a,b,c)},p=dl(a),aB=H[1],q=function(a){return bQ(aB,a)},aC=G[1],r=function(a){return bQ(aC,a)},aD=F[1],V=bg(n,k),W=bg(o,j),aE=aI(a,n,j),X=aI(a,p,bg(aI(a,o,k),aE)),Y=function(a){var
-d=bQ(aD,a),b=c(W,r(a));return cu(c(p,bs(c(V,q(a)),b)),d)},Z=function(d,b){return d0(a,X,c(d,Y(b)))},aF=dT(j),aG=F[2],aH=G[2],aJ=H[2],d=hm(function(d,b,l,i,h){var
-f=Z(aF,b),e=Z(k,b),m=c(W,i),s=r(d),t=bs(cW(a,cu(r(b),e),s),m),u=c(V,l),v=q(d),w=cu(c(p,bs(bs(cW(a,cu(q(b),f),v),u),t)),h),x=c(n,e),y=bs(c(j,q(b)),x),z=c(o,f),A=c(p,cu(bs(c(k,r(b)),z),y)),B=cW(a,bQ(g,d),A),C=T?k:dT(j),D=c(C,w),E=Y(d),F=T?f:eN(e);return d0(a,X,cu(bs(cW(a,F,E),D),B))},t,aJ,aH,aG);ad=1;ae=1}else
+L=jv(a,n,o,K[1]);if(L){var
+U=L[1],j=U[2],k=U[1],c=function(b,c){return bt(a,b,c)},p=dt(a),aB=H[1],q=function(a){return bT(aB,a)},aC=G[1],r=function(a){return bT(aC,a)},aD=F[1],V=bg(n,k),W=bg(o,j),aE=aK(a,n,j),X=aK(a,p,bg(aK(a,o,k),aE)),Y=function(a){var
+d=bT(aD,a),b=c(W,r(a));return cw(c(p,bu(c(V,q(a)),b)),d)},Z=function(d,b){return d1(a,X,c(d,Y(b)))},aF=dU(j),aG=F[2],aH=G[2],aI=H[2],e=hs(function(d,b,l,i,h){var
+f=Z(aF,b),e=Z(k,b),m=c(W,i),s=r(d),t=bu(cZ(a,cw(r(b),e),s),m),u=c(V,l),v=q(d),w=cw(c(p,bu(bu(cZ(a,cw(q(b),f),v),u),t)),h),x=c(n,e),y=bu(c(j,q(b)),x),z=c(o,f),A=c(p,cw(bu(c(k,r(b)),z),y)),B=cZ(a,bT(g,d),A),C=T?k:dU(j),D=c(C,w),E=Y(d),F=T?f:eT(e);return d1(a,X,cw(bu(cZ(a,F,E),D),B))},t,aI,aH,aG);ad=1;ae=1}else
 var
 _=L}else
 var
@@ -2682,38 +2752,38 @@ var
 $=J;if(!ad){var
 aa=$;M=1}}else{var
 aa=I;M=1}if(M)var
-d=aa;break;default:var
-d=e(function(a){return 0},t)}switch(f){case
+e=aa;break;default:var
+e=d(function(a){return 0},t)}switch(f){case
 1:var
-ag=h[2],ah=h[2],ai=l[2],d=hm(function(d,c,b,a,e){return gx(m,d,c,b,a)},t,ai,ah,ag);break;case
+ag=h[2],ah=h[2],ai=l[2],e=hs(function(d,c,b,a,e){return gD(m,d,c,b,a)},t,ai,ah,ag);break;case
 2:var
-al=i[2],am=i[2],an=i[2],d=hm(function(c,b,a,e,d){return fi(u,c,b,a)},t,an,am,al);break}return[0,g,d]},d,i);return function(h){var
-i=q(h,u,vu),j=q(h,n,0);if(j){var
-d=i[1];if(d)var
-k=q(h,v,vv),o=aA(0,f(jB(b,c))),p=e(function(a){return q(a,k[2],nK)},o),r=aA(0,f(b)),a=nO(g(e(function(a){var
-d=fN(nM(b,a),c)?i:k[1];return bQ(d,a)},r),p)),s=a?[0,[0,d[1],a[1]]]:a,l=s;else
+al=i[2],am=i[2],an=i[2],e=hs(function(c,b,a,e,d){return fm(u,c,b,a)},t,an,am,al);break}return[0,g,e]},e,i);return function(h){var
+i=q(h,u,vP),j=q(h,n,0);if(j){var
+e=i[1];if(e)var
+k=q(h,v,vQ),o=ax(0,f(ht(b,c))),p=d(function(a){return q(a,k[2],nR)},o),r=ax(0,f(b)),a=nV(g(d(function(a){var
+d=cY(nT(b,a),c)?i:k[1];return bT(d,a)},r),p)),s=a?[0,[0,e[1],a[1]]]:a,l=s;else
 var
-l=d;var
+l=e;var
 m=l}else
 var
 m=j;return m}}var
-l=db(0,b7(a,s,j),d,i),m=e(as,b),o=e(_,h),p=db(vy,function(b){return jy(a,s,o,m,b)},d,i);return function(d){var
+l=dk(0,b_(a,s,j),e,i),m=d(ao,b),o=d(R,h),p=dk(vT,function(b){return jC(a,s,o,m,b)},e,i);return function(d){var
 e=q(d,n,0);if(e){var
 a=q(d,l,0);if(a)var
-c=nJ(0,b,q(d,p,vt)),h=c?[0,[0,a[1],c[1]]]:c,f=h;else
+c=nQ(0,b,q(d,p,vO)),h=c?[0,[0,a[1],c[1]]]:c,f=h;else
 var
 f=a;var
 g=f}else
 var
 g=e;return g}}function
-hu(a,c){var
-b=l(function(a){return fN(a,e(as,c))},a);return b?eT(a):b}function
-fR(j,b,a){if(a){var
-k=a[1],l=k[2],c=ad(e(b,k[1]));if(c){var
+fX(a,c){var
+b=k(function(a){return cY(a,d(ao,c))},a);return b?d3(a):b}function
+eZ(j,b,a){if(a){var
+k=a[1],l=k[2],c=ad(d(b,k[1]));if(c){var
 f=h(b,l);if(f){var
 g=q(l,j,0);if(g){var
-i=fR(j,b,a[2]);if(i)var
-m=I(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],i[1]]]:m;else
+i=eZ(j,b,a[2]);if(i)var
+m=I(e,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],i[1]]]:m;else
 var
 n=i;var
 o=n}else
@@ -2724,327 +2794,406 @@ var
 p=f;var
 r=p}else
 var
-r=c;return r}return vz}function
-n5(c,S,j,aJ,y,x,q,R,P,g,b,o,w,a){var
-i=f(R),aK=dj(0,R),aL=cp(fQ(j,aJ,y,g,b),S),aM=hn(c,o,w,x),T=ht(c,S,x,q,aK,aL,o,w);function
-A(a){return e(function(a){return L(c,a)},a)}var
-aN=P?P[1]:_(t);function
-V(a){return a?aX(c,i,a[1]):a}function
-r(f,e,d,b,a){var
-g=$([0,Q(e),0],i);return V(jA(c,A(f),d,b,a,g))}function
-W(d,b,a){var
-e=$([0,b,0],i);return V(nE(c,A(d),a,e))}var
-aO=e(as,o),X=l(function(a){return aF(a,f(x))},aO),Y=X?eT(e(as,o)):X;if(Y)var
-Z=hu(w,o),C=Z?l(function(a){return m(f(a),i)},a):Z;else
+r=c;return r}return vU}function
+vV(c,T,j,aJ,z,y,q,S,Q,g,b,o,x,a){var
+i=f(S),aK=cX(0,S),aM=bD(eY(j,aJ,z,g,b),T),aN=fT(c,o,x,y),U=fW(c,T,y,q,aK,aM,o,x);function
+A(a){return d(function(a){return J(c,a)},a)}var
+aO=Q?Q[1]:R(t);function
+V(a){return a?aU(c,i,a[1]):a}function
+s(f,e,d,b,a){var
+g=X([0,N(e),0],i);return V(jE(c,A(f),d,b,a,g))}function
+Y(d,b,a){var
+e=X([0,b,0],i);return V(nL(c,A(d),a,e))}var
+aP=d(ao,o),Z=k(function(a){return aE(a,f(y))},aP),_=Z?d3(d(ao,o)):Z;if(_)var
+$=fX(x,o),C=$?k(function(a){return m(f(a),i)},a):$;else
 var
-C=Y;if(C){var
+C=_;if(C){var
 v=0;switch(g[0]){case
 0:var
-E=g[1],M=0;if(typeof
+E=g[1],O=0;if(typeof
 b!=="number")switch(b[0]){case
 0:var
 aw=0;if(a){if(a[2])return 0;var
-aP=a[1],aQ=b[2],aR=b[1],aa=dp(y,q);if(aa){var
+aQ=a[1],aR=b[2],aS=b[1],aa=c1(z,q);if(aa){var
 n=function(c,a){var
-b=z(E,a);return function(a){return r(aP,b,aR,aQ,a)}},k=j;M=1;aw=1}else
+b=w(E,a);return function(a){return s(aQ,b,aS,aR,a)}},l=j;O=1;aw=1}else
 var
 ad=aa}else
 var
 ad=a;if(!aw)return ad;break;case
 2:var
-ax=0;if(a){if(a[2])return 0;var
-aU=a[1],aW=b[2],aY=b[1],ae=dp(y,q),ay=0;if(ae){var
-af=H(E[1],d),ag=af?H(E[2],d):af;if(ag){var
-n=function(c,b,a){return r(aU,b,aY,aW,e(nD,a))},k=j;M=1;ax=1;ay=1}else
+ay=0;if(a){if(a[2])return 0;var
+aW=a[1],aY=b[2],aZ=b[1],ae=c1(z,q),az=0;if(ae){var
+af=H(E[1],e),ag=af?H(E[2],e):af;if(ag){var
+n=function(c,b,a){return s(aW,b,aZ,aY,d(nK,a))},l=j;O=1;ay=1;az=1}else
 var
 ah=ag}else
 var
-ah=ae;if(!ay)var
+ah=ae;if(!az)var
 ai=ah}else
 var
-ai=a;if(!ax)return ai;break}if(!M)return 0;break;case
+ai=a;if(!ay)return ai;break}if(!O)return 0;break;case
 1:var
-az=0,aZ=g[1];if(typeof
+aA=0,a0=g[1];if(typeof
 b==="number"&&!b){if(!a)return a;if(a[2])return 0;var
-a0=a[1],n=function(c,a){var
-b=B(aZ,a);return function(a){return W(a0,b,a)}},k=j;az=1}if(!az)return 0;break;case
+a1=a[1],n=function(c,a){var
+b=B(a0,a);return function(a){return Y(a1,b,a)}},l=j;aA=1}if(!aA)return 0;break;case
 2:var
-aB=0,a1=g[1];if(typeof
+aB=0,a2=g[1];if(typeof
 b==="number"||!(3===b[0]))aB=1;else{var
 aC=0;if(a){var
 u=a[2],aD=0;if(u){if(u[2])return 0;var
-aj=b[1],a2=u[1],a3=a[1],a4=b[2],ak=jK(c,aj,b[3]),al=hf(i,ak);if(al){var
+ak=b[1],a3=u[1],a5=a[1],a6=b[2],al=jR(c,ak,b[3]),am=hl(i,al);if(am){var
 n=function(f,b,a){var
-d=av(f,ak),e=r(a3,z(d,b),aj,a4,a);return e?W(a2,B(s(c,a1,d),b),a):e},k=j;aC=1;aD=1}else
+d=aq(f,al),e=s(a5,w(d,b),ak,a6,a);return e?Y(a3,B(r(c,a2,d),b),a):e},l=j;aC=1;aD=1}else
 var
-ao=al}else
+ap=am}else
 var
-ao=u;if(!aD)var
-ap=ao}else
+ap=u;if(!aD)var
+ar=ap}else
 var
-ap=a;if(!aC)return ap}if(aB)return 0;break;case
+ar=a;if(!aC)return ar}if(aB)return 0;break;case
 3:var
-aE=0;if(typeof
+aF=0;if(typeof
 b==="number"&&!b){if(a)return 0;var
 I=g[1];v=1}else
-aE=1;if(aE)return 0;break;case
+aF=1;if(aF)return 0;break;case
 4:var
-aG=0,a6=g[2];if(typeof
+aG=0,a8=g[2];if(typeof
 b==="number"||!(0===b[0]))aG=1;else{if(!a)return a;if(a[2])return 0;var
-a7=a[1],a8=b[2],a_=b[1],ba=function(c,a){var
-b=z(a6,a);return function(a){return r(a7,b,a_,a8,a)}},n=ba,k=g[1]}if(aG)return 0;break;case
+a9=a[1],a_=b[2],a$=b[1],ba=function(c,a){var
+b=w(a8,a);return function(a){return s(a9,b,a$,a_,a)}},n=ba,l=g[1]}if(aG)return 0;break;case
 5:var
-O=0;if(typeof
+P=0;if(typeof
 b==="number"&&!(3<=b))switch(b){case
 0:if(a)return 0;var
 I=g[1];v=1;break;case
 2:if(a)return 0;var
-I=g[2];v=1;break;default:O=1}else
-O=1;if(O)return 0;break;case
+I=g[2];v=1;break;default:P=1}else
+P=1;if(P)return 0;break;case
 7:var
-aq=g[2],ar=g[1],aH=0;if(typeof
+as=g[2],at=g[1],aH=0;if(typeof
 b==="number"||!(0===b[0]))aH=1;else{var
 aI=0;if(a){if(a[2])return 0;var
-p=b[2],K=b[1],bb=a[1],at=m(f(j),i);if(at){var
+p=b[2],L=b[1],bb=a[1],au=m(f(j),i);if(au){var
 n=function(a,x){var
 y=A(bb);return function(g){var
 k=m(f(g),i),l=k?m(f(p),i):k;if(l){var
-t=e(as,g),u=dY(K,dZ(K,p,a$(c),t)),v=aV(hi(c,ar,aq,x,e(as,g)),u),a=0,b=g,h=v,w=f(p);for(;;){if(b){var
-o=b[1][2],q=m(a,ar),r=e(function(g,h){return function(d){var
-a=N(aA(0,f(p)),p);return e(function(a){var
-b=nG(K,a[2],d[1]);if(h&&m(a[1],g))return B(b,an(s(c,aq,d[2])));return b},a)}}(a,q),o),j=fM(c,y,nF(c,a,w),r,h);if(j){var
+t=d(ao,g),u=dZ(L,d0(L,p,aV(c),t)),v=aL(hp(c,at,as,x,d(ao,g)),u),a=0,b=g,h=v,w=f(p);for(;;){if(b){var
+o=b[1][2],q=m(a,at),s=d(function(g,h){return function(e){var
+a=M(ax(0,f(p)),p);return d(function(a){var
+b=nN(L,a[2],e[1]);if(h&&m(a[1],g))return B(b,aj(r(c,as,e[2])));return b},a)}}(a,q),o),j=fR(c,y,nM(c,a,w),s,h);if(j){var
 a=[0,a],b=b[2],h=j[1];continue}var
-d=j}else
+e=j}else
 var
-d=[0,h];if(d)return aX(c,i,d[1]);var
-n=d;break}}else
+e=[0,h];if(e)return aU(c,i,e[1]);var
+n=e;break}}else
 var
-n=l;return n}},k=j;aI=1}else
+n=l;return n}},l=j;aI=1}else
 var
-au=at}else
+av=au}else
 var
-au=a;if(!aI)return au}if(aH)return 0;break;default:return 0}if(v){var
-J=h(T,I);if(!J)return J;var
-a5=function(b,f,a){return l(function(a){var
-b=f[2],c=a[2],e=am(function(b,a){return G(bw(d,U(b[2][1])),a)},d,c);return D(d,aT(aT(a[1][2][1],e),b))},a)},ac=a5,ab=[0,[0,0,J[1]],0]}else{var
-F=fR(q,T,k);if(!F)return F;var
+av=a;if(!aI)return av}if(aH)return 0;break;default:return 0}if(v){var
+K=h(U,I);if(!K)return K;var
+a7=function(b,f,a){return k(function(a){var
+b=f[2],c=a[2],d=an(function(b,a){return G(by(e,W(b[2][1])),a)},e,c);return D(e,aX(aX(a[1][2][1],d),b))},a)},ac=a7,ab=[0,[0,0,K[1]],0]}else{var
+F=eZ(q,U,l);if(!F)return F;var
 ac=n,ab=F[1]}var
-aS=a9(i);return l(function(a){var
-b=e(function(b){return hl(c,a,aM,b)},ab);return fi(ac,a,av(a,aN),b)},aS)}return C}function
-jL(j,a){var
-f=am(function(b,a){return bw(cK(b),a)},d,a);function
-g(a){if(a){if(H(cK(a[1]),f))return 0;var
+aT=a4(i);return k(function(a){var
+b=d(function(b){return hr(c,a,aN,b)},ab);return fm(ac,a,aq(a,aO),b)},aT)}return C}function
+jS(j,b){var
+f=an(function(b,a){return by(cL(b),a)},e,b);function
+g(a){if(a){if(H(cL(a[1]),f))return 0;var
 b=[0,g(a[2])]}else
 var
 b=a;return b}var
-h=g(a);if(H(f,d)){var
-k=e(function(a){return t},a),l=a?[0,b,a[2]]:a;return[0,[0,[0,0,l],d],k]}var
-i=jg(G(mD(f),b)),m=e(function(a){return t},a);return[0,[0,[0,h,a],i],dm(t,h,L(j,cm(c(2,b),i)),m)]}function
-hv(g,O,o,an,w,v,n,N,M,h,a,k,u,am,K,al,I,G){var
-i=f(N),ao=dj(0,N),ap=cp(fQ(o,an,w,h,a),O),aq=hn(g,k,u,v),ar=ht(g,O,v,n,ao,ap,k,u),au=M?M[1]:_(t),P=jL(g,am),R=P[1],S=R[1],x=S[2],j=S[1],T=P[2],aw=R[2],p=e(function(a){return aH(a,aw,L(g,b))},x);function
-U(a){return jE(g,j,p,K,al,I,G,jD(g,j,p,i,a,0))}function
-V(a){return a?aX(g,i,a[1]):a}function
-y(d,c,b,a){return V(jF(g,j,p,T,c,b,a,U(Q(d))))}var
-ax=e(as,k),W=l(function(a){return aF(a,f(v))},ax),X=W?eT(e(as,k)):W,Y=X?m(f(x),i):X;if(Y)var
-Z=hu(u,k),A=Z?m(f(K),i):Z;else
+h=g(b);if(H(f,e)){var
+k=d(function(a){return t},b),l=b?[0,a,b[2]]:b;return[0,[0,[0,0,l],e],k]}var
+i=jl(G(mJ(f),a)),m=d(function(a){return t},b);return[0,[0,[0,h,b],i],du(t,h,J(j,cp(c(2,a),i)),m)]}function
+hA(g,P,o,an,x,v,n,O,M,h,b,l,u,am,K,al,I,G){var
+i=f(O),ap=cX(0,O),ar=bD(eY(o,an,x,h,b),P),as=fT(g,l,u,v),at=fW(g,P,v,n,ap,ar,l,u),av=M?M[1]:R(t),Q=jS(g,am),S=Q[1],T=S[1],y=T[2],j=T[1],U=Q[2],aw=S[2],p=d(function(b){return aB(b,aw,J(g,a))},y);function
+V(a){return jH(g,j,p,K,al,I,G,jG(g,j,p,i,a,0))}function
+W(a){return a?aU(g,i,a[1]):a}function
+z(d,c,b,a){return W(jI(g,j,p,U,c,b,a,V(N(d))))}var
+ax=d(ao,l),X=k(function(a){return aE(a,f(v))},ax),Y=X?d3(d(ao,l)):X,Z=Y?m(f(y),i):Y;if(Z)var
+_=fX(u,l),A=_?m(f(K),i):_;else
 var
-A=Y;var
-$=A?D(d,I):A,aa=$?g2(G,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):$,ab=aa?aF(j,i):aa,ac=ab?J(H(q(j,x,d),d)):ab;if(ac){switch(h[0]){case
+A=Z;var
+$=A?D(e,I):A,aa=$?fG(G,c(2,c(2,c(2,c(2,c(2,c(2,a))))))):$,ab=aa?aE(j,i):aa,ac=ab?L(H(q(j,y,e),e)):ab;if(ac){switch(h[0]){case
 0:var
 C=h[1],F=0;if(typeof
-a==="number")F=1;else
-switch(a[0]){case
+b==="number")F=1;else
+switch(b[0]){case
 0:var
-ay=a[2],az=a[1],ad=dp(w,n);if(!ad)return ad;var
+ay=b[2],az=b[1],ad=c1(x,n);if(!ad)return ad;var
 s=function(a){var
-b=z(C,a);return function(a){return y(b,az,ay,a)}},r=o;break;case
+b=w(C,a);return function(a){return z(b,az,ay,a)}},r=o;break;case
 2:var
-aC=a[2],aD=a[1],ae=dp(w,n),ai=0;if(ae){var
-af=H(C[1],d),ag=af?H(C[2],d):af;if(ag){var
-s=function(b,a){return y(b,aD,aC,e(nD,a))},r=o;ai=1}else
+aD=b[2],aF=b[1],ae=c1(x,n),ai=0;if(ae){var
+af=H(C[1],e),ag=af?H(C[2],e):af;if(ag){var
+s=function(b,a){return z(b,aF,aD,d(nK,a))},r=o;ai=1}else
 var
 ah=ag}else
 var
 ah=ae;if(!ai)return ah;break;default:F=1}if(F)return 0;break;case
 1:var
-aj=0,aE=h[1];if(typeof
-a==="number"&&!a)var
+aj=0,aG=h[1];if(typeof
+b==="number"&&!b)var
 s=function(a){var
-b=B(aE,a);return function(a){return V(nT(g,j,p,T,a,U(b)))}},r=o;else
+b=B(aG,a);return function(a){return W(n0(g,j,p,U,a,V(b)))}},r=o;else
 aj=1;if(aj)return 0;break;case
 4:var
-ak=0,aG=h[2];if(typeof
-a==="number"||!(0===a[0]))ak=1;else
+ak=0,aH=h[2];if(typeof
+b==="number"||!(0===b[0]))ak=1;else
 var
-aI=a[2],aJ=a[1],aK=function(a){var
-b=z(aG,a);return function(a){return y(b,aJ,aI,a)}},s=aK,r=h[1];if(ak)return 0;break;default:return 0}var
-E=fR(n,ar,r);if(E){var
-aA=E[1],aB=a9(i);return l(function(a){var
-b=e(function(b){return hl(g,a,aq,b)},aA);return at(s,av(a,au),b)},aB)}return E}return ac}function
-n6(s,r,q,p,o,n,F,m,c,l,k,j,i,g,a){var
-w=e(function(a){return d},c),v=0;if(typeof
+aI=b[2],aJ=b[1],aK=function(a){var
+b=w(aH,a);return function(a){return z(b,aJ,aI,a)}},s=aK,r=h[1];if(ak)return 0;break;default:return 0}var
+E=eZ(n,at,r);if(E){var
+aA=E[1],aC=a4(i);return k(function(a){var
+b=d(function(b){return hr(g,a,as,b)},aA);return au(s,aq(a,av),b)},aC)}return E}return ac}function
+oh(s,r,q,p,o,n,F,m,c,l,k,j,i,g,a){var
+w=d(function(a){return e},c),v=0;if(typeof
 a!=="number")switch(a[0]){case
 5:var
-G=a[1],H=function(a){return hv(s,r,q,p,o,n,m,c,a,l,G,0,0,w,k,j,i,g)},y=H,x=a[3],t=a[2];v=1;break;case
+G=a[1],H=function(a){return hA(s,r,q,p,o,n,m,c,a,l,G,0,0,w,k,j,i,g)},y=H,x=a[3],t=a[2];v=1;break;case
 10:var
 b=a[4],B=a[3],C=a[2],f=a[1],E=0;if(typeof
 f!=="number"&&5===f[0]){if(!b)return b;if(b[2])return 0;var
-I=b[1],J=f[1],K=function(a){return hv(s,r,q,p,o,n,m,c,a,l,J,C,B,I,k,j,i,g)},y=K,x=f[3],t=f[2];v=1;E=1}if(!E)return b?b[2]?0:hv(s,r,q,p,o,n,m,c,0,l,f,C,B,b[1],k,j,i,g):b;break}if(v){var
+I=b[1],J=f[1],K=function(a){return hA(s,r,q,p,o,n,m,c,a,l,J,C,B,I,k,j,i,g)},y=K,x=f[3],t=f[2];v=1;E=1}if(!E)return b?b[2]?0:hA(s,r,q,p,o,n,m,c,0,l,f,C,B,b[1],k,j,i,g):b;break}if(v){var
 u=h(F,c);if(u){var
-z=D(d,t);if(z)return y([0,fI(t,x,u[1])]);var
+z=D(e,t);if(z)return y([0,fN(t,x,u[1])]);var
 A=z}else
 var
-A=u;return A}return hv(s,r,q,p,o,n,m,c,0,l,a,0,0,w,k,j,i,g)}function
-n7(a,al,ak,x,I,aj,r,p,ai,ah,i){function
-k(am,g,j,y,A){var
-h=f(r),at=dj(0,r),au=cp(cv(ak),al),aw=hn(a,j,y,x),ax=ht(a,al,x,aj,at,au,j,y),ay=am?am[1]:_(t);function
-k(b){return b?aX(a,h,b[1]):b}function
-E(b,a){return Q(z(av(b,ai),a))}function
-F(d,c,b){return B(s(a,d,av(c,ai)),b)}var
-az=e(as,j),G=l(function(a){return aF(a,f(x))},az),I=G?eT(e(as,j)):G;if(I)var
-K=hu(y,j),u=K?m(f(A),h):K;else
+A=u;return A}return hA(s,r,q,p,o,n,m,c,0,l,a,0,0,w,k,j,i,g)}function
+hB(b,ap,o,L,K,v,an,G,am,F,u,E,l,h,j,i,s,D){var
+n=f(K),ar=cX(0,K),O=fT(b,h,j,o),ah=ht(h,j),ai=d(function(a){var
+b=jN(h,j,a[1]),c=b?jN(h,j,a[2]):b,d=c?[1,a[1],a[2]]:c;return d},ah),ak=ax(0,f(h)),al=g(d(function(a){var
+b=jN(h,j,a),c=b?[0,a]:b;return c},ak),ai),as=fW(b,ap,o,L,ar,an,h,j),at=E?E[1]:R(t),P=hm(am,R(jM(F,fS(h,0,o),u))),Q=d(function(a){return d(function(b){return n3(a,b[1])},h)},u);function
+S(a){return a?aU(b,n,a[1]):a}var
+au=d(ao,h),T=k(function(a){return aE(a,f(o))},au),U=T?d3(d(ao,h)):T;if(U){var
+V=fX(j,h),W=V?k(function(a){return m(f(a),n)},i):V;if(W)var
+av=f(v),x=m(f(u),av);else
 var
-u=I;if(u){var
-an=0;if(ah){var
-M=ah[1],N=M[1],O=N[1],P=O[1],R=N[2],S=M[2],aA=O[2],T=jL(a,A),U=T[1],V=U[1],v=V[2],i=V[1],W=T[2],aB=U[2],n=e(function(c){return aH(c,aB,L(a,b))},v),X=function(b){return jE(a,i,n,P,aA,R,S,jD(a,i,n,h,b,0))},Y=m(f(v),h),Z=Y?m(f(P),h):Y,aa=Z?D(d,R):Z,ab=aa?g2(S,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):aa,ac=ab?aF(i,h):ab,ad=ac?J(H(q(i,v,d),d)):ac,C=0;if(ad)if(p){var
-ao=0,aC=p[1];if(typeof
-g==="number"&&!g){var
-o=function(d,c,b){return k(nT(a,i,n,W,b,X(F(aC,d,c))))};C=1;ao=1}if(!ao)return 0}else{var
-ap=0;if(typeof
-g!=="number"&&0===g[0]){var
-aG=g[2],aI=g[1],o=function(d,c,b){return k(jF(a,i,n,W,aI,aG,b,X(E(d,c))))};C=1;ap=1}if(!ap)var
-ae=0}else
+x=W;if(x)var
+aw=f(v),p=m(f(D),aw);else
 var
-ae=ad;if(!C)return ae}else{var
-af=e(function(b){return L(a,b)},A);if(p){var
-aq=0,aJ=p[1];if(typeof
-g==="number"&&!g){var
-o=function(d,c,b){return k(nE(a,af,b,$([0,F(aJ,d,c),0],h)))};aq=1}if(!aq)return 0}else{var
+p=x}else
+var
+p=U;if(p)var
+Y=j?1:j,y=Y?fG(s,c(2,c(2,c(2,c(2,c(2,c(2,a))))))):Y;else
+var
+y=p;if(y){var
+C=0;if(G){var
+Z=G[1],af=0;if(typeof
+l==="number"&&!l){if(!i)return i;if(i[2])return 0;var
+ay=i[1],_=function(E,D,C){var
+F=X([0,B(r(b,Z,aq(E,P)),D),0],n),u=d(function(a){return J(b,a)},ay),c=C,f=F;for(;;){if(c){var
+j=c[1],k=j[2],l=k[1],g=l[2],h=l[1],m=k[2],o=[0,[0,br(g),h],f];if(m){var
+p=I(e,g[1]);if(p)var
+w=d(function(a){var
+c=r(b,Z,a[2][2]),d=a[2][1][1],e=[0,[0,aj(a[2][1][2]),d],c];return[0,a[1],e]},m),x=j[1],y=d(function(a){return t},h),z=[0,aV(b),y],A=aV(b),a=ob(b,[0,N(b8(d2(b,h,u),A,g)),u],0,vJ,z,s,x,w,o);else
+var
+a=p}else
+var
+a=[0,o];if(a){var
+i=eP(b,a[1]);if(i){var
+c=c[2],f=i[1];continue}var
+q=i}else
+var
+q=a;var
+v=q}else
+var
+v=[0,f];return S(v)}};C=1;af=1}if(!af)return 0}else{var
+ag=0;if(typeof
+l!=="number"&&0===l[0]){if(!i)return i;var
+A=i[2],q=l[1],aF=i[1],aG=l[2];if(A){if(A[2])return 0;var
+ad=A[1],aH=k(function(a){return H(a,e)},ad)?0:[0,d(function(d){var
+e=J(b,a);return aB(d,c(2,c(2,a)),e)},ad)],ae=aH}else
+var
+ae=0;var
+_=function(x,v,u){var
+y=X([0,N(w(aq(x,P),v)),0],n),c=aG,a=u,f=y,z=d(function(a){return J(b,a)},aF);for(;;){if(c){if(a){var
+h=a[1],i=h[2],j=i[1],e=c[1],m=bR(j[2]),o=aL(f,fL(q,e,cu(q,j[1],m,e))),p=i[2],r=d(function(e){return function(a){var
+b=N(a[2][2]),c=[0,d(aj,cu(q,a[2][1][1],a[2][1][2],e)),b];return[0,a[1],c]}}(e),p),t=h[1],g=ob(b,z,ae,0,d(function(a){return aB(a,q,aV(b))},e),s,t,r,o);if(g){var
+c=c[2],a=a[2],f=g[1];continue}var
+k=g}else
+var
+k=a;var
+l=k}else
+var
+l=a?0:[0,f];return S(l)}};C=1;ag=1}if(!ag)var
+ac=0}if(C){var
+z=eZ(L,as,v);if(z){var
+$=z[1],az=M(Q,$),aa=k(function(a){return n7(a[1],a[2])},az);if(aa){var
+aA=M(D,M(Q,$)),aC=d(function(a){var
+b=a[2][2],c=[0,oc(O,al,0,a[2][2]),b];return[0,a[1],[0,a[2][1],c]]},aA),aD=a4(n);return k(function(c){var
+a=d(function(a){var
+f=a[2][2][1],d=n5(b,F,c,O,a[2][1],a[2][2][2]),e=M(f,d[2]);return[0,a[1],[0,d[1],e]]},aC);return _(c,aq(c,at),a)},aD)}var
+ab=aa}else
+var
+ab=z;return ab}}else
+var
+ac=y;return ac}function
+oi(a){return d(function(a){return 0},a)}function
+oj(g,x,o,v,Q,I,n,l,G,F,i){function
+p(K,b,j,y,z){if(typeof
+b!=="number"&&14===b[0]){if(F)return 0;var
+aM=b[3],aN=b[2],aO=b[1],aP=oi(o);return hB(g,x,v,I,n,o,bD(bJ(o),x),l,G,e,aP,K,aO,j,y,[0,z,0],aN,aM)}var
+h=f(n),au=cX(0,n),av=bD(bJ(o),x),aw=fT(g,j,y,v),ax=fW(g,x,v,I,au,av,j,y),ay=K?K[1]:R(t);function
+p(a){return a?aU(g,h,a[1]):a}function
+O(b,a){return N(w(aq(b,G),a))}function
+P(c,b,a){return B(r(g,c,aq(b,G)),a)}var
+az=d(ao,j),Q=k(function(a){return aE(a,f(v))},az),S=Q?d3(d(ao,j)):Q;if(S)var
+T=fX(y,j),A=T?m(f(z),h):T;else
+var
+A=S;if(A){var
+an=0;if(F){var
+U=F[1],V=U[1],W=V[1],Y=W[1],Z=V[2],_=U[2],aA=W[2],$=jS(g,z),aa=$[1],ab=aa[1],C=ab[2],i=ab[1],ac=$[2],aC=aa[2],s=d(function(b){return aB(b,aC,J(g,a))},C),ad=function(a){return jH(g,i,s,Y,aA,Z,_,jG(g,i,s,h,a,0))},ae=m(f(C),h),af=ae?m(f(Y),h):ae,ag=af?D(e,Z):af,ah=ag?fG(_,c(2,c(2,c(2,c(2,c(2,c(2,a))))))):ag,ai=ah?aE(i,h):ah,aj=ai?L(H(q(i,C,e),e)):ai,M=0;if(aj)if(l){var
+ap=0,aD=l[1];if(typeof
+b==="number"&&!b){var
+u=function(c,b,a){return p(n0(g,i,s,ac,a,ad(P(aD,c,b))))};M=1;ap=1}if(!ap)return 0}else{var
 ar=0;if(typeof
-g==="number"||!(0===g[0]))ar=1;else
+b!=="number"&&0===b[0]){var
+aH=b[2],aI=b[1],u=function(c,b,a){return p(jI(g,i,s,ac,aI,aH,a,ad(O(c,b))))};M=1;ar=1}if(!ar)var
+ak=0}else
 var
-aK=g[2],aL=g[1],o=function(d,c,b){return k(jA(a,af,aL,aK,b,$([0,E(d,c),0],h)))};if(ar){var
-ag=0;an=1}}}if(!an){var
-w=fR(aj,ax,ak);if(w){var
-aD=w[1],aE=a9(h);return l(function(b){var
-c=e(function(c){return hl(a,b,aw,c)},aD);return o(b,av(b,ay),c)},aE)}return w}}else
+ak=aj;if(!M)return ak}else{var
+al=d(function(a){return J(g,a)},z);if(l){var
+as=0,aJ=l[1];if(typeof
+b==="number"&&!b){var
+u=function(c,b,a){return p(nL(g,al,a,X([0,P(aJ,c,b),0],h)))};as=1}if(!as)return 0}else{var
+at=0;if(typeof
+b==="number"||!(0===b[0]))at=1;else
 var
-ag=u;return ag}var
-y=e(function(a){return d},r),w=0;if(typeof
+aK=b[2],aL=b[1],u=function(c,b,a){return p(jE(g,al,aL,aK,a,X([0,O(c,b),0],h)))};if(at){var
+am=0;an=1}}}if(!an){var
+E=eZ(I,ax,o);if(E){var
+aF=E[1],aG=a4(h);return k(function(a){var
+b=d(function(b){return hr(g,a,aw,b)},aF);return u(a,aq(a,ay),b)},aG)}return E}}else
+var
+am=A;return am}var
+C=d(function(a){return e},n),A=0;if(typeof
 i!=="number")switch(i[0]){case
 5:var
-K=i[1],M=function(a){return k(a,K,0,0,y)},C=M,A=i[3],n=i[2];w=1;break;case
+S=i[1],T=function(a){return p(a,S,0,0,C)},K=T,E=i[3],s=i[2];A=1;break;case
 10:var
-g=i[4],u=i[3],v=i[2],j=i[1],G=0;if(typeof
+b=i[4],y=i[3],z=i[2],j=i[1],P=0;if(typeof
 j!=="number")switch(j[0]){case
-5:if(!g)return g;if(g[2])return 0;var
-N=g[1],O=j[1],P=function(a){return k(a,O,v,u,N)},C=P,A=j[3],n=j[2];w=1;G=1;break;case
+5:if(!b)return b;if(b[2])return 0;var
+U=b[1],V=j[1],W=function(a){return p(a,V,z,y,U)},K=W,E=j[3],s=j[2];A=1;P=1;break;case
 3:case
 7:case
 9:case
 10:case
 11:case
-13:return g?g[2]?0:k(0,j,v,u,g[1]):g}if(!G)return g?g[2]?0:k(0,j,v,u,g[1]):g;break}if(w){var
-o=h(I,r);if(o){var
-E=D(d,n);if(E)return C([0,fI(n,A,o[1])]);var
-F=E}else
+13:case
+14:return b?b[2]?0:p(0,j,z,y,b[1]):b}if(!P)return b?b[2]?0:p(0,j,z,y,b[1]):b;break}if(A){var
+u=h(Q,n);if(u){var
+M=D(e,s);if(M)return K([0,fN(s,E,u[1])]);var
+O=M}else
 var
-F=o;return F}return k(0,i,0,0,y)}function
-n8(a,aa,x,r,R,Z,p,w,ax,Y,v,g){function
-j(ab,i,h,y,g){var
-j=f(p),af=dj(0,p),ah=cp(cv(x),aa),ai=hn(a,h,y,r),aj=ht(a,aa,r,Z,af,ah,h,y),ak=ab?ab[1]:_(t),C=jx(ax,_(nZ(Y,hk(h,0,r),v))),D=e(function(a){return e(function(b){var
-c=b[1];return am(function(b,a){return m(b[1],c)?G(b[2],a):a},d,a)},h)},v);function
-E(b){return b?aX(a,j,b[1]):b}var
-al=e(as,h),F=l(function(a){return aF(a,f(r))},al),K=F?eT(e(as,h)):F;if(K){var
-M=hu(y,h),O=M?l(function(a){return m(f(a),j)},g):M;if(O)var
-ao=f(x),k=m(f(v),ao);else
+O=u;return O}return p(0,i,0,0,C)}function
+ok(b,p,j,o,T,A,n,l,F,z,s,g){function
+q(C,h,i,u,g){if(typeof
+h!=="number"&&14===h[0]){var
+ab=h[3],ac=h[2],ad=h[1];if(l)return g?g[2]?0:hB(b,p,o,A,n,j,bD(bJ(j),p),l,F,z,s,C,ad,i,u,g,ac,ab):g;if(g){var
+E=g[2];if(E)return E[2]?0:hB(b,p,o,A,n,j,bD(bJ(j),p),l,F,z,s,C,ad,i,u,g,ac,ab);var
+ae=E}else
 var
-k=O}else
+ae=g;return ae}var
+q=f(n),ai=cX(0,n),ak=bD(bJ(j),p),al=fT(b,i,u,o),am=fW(b,p,o,A,ai,ak,i,u),an=C?C[1]:R(t),K=hm(F,R(jM(z,fS(i,0,o),s))),L=d(function(a){return d(function(b){return n3(a,b[1])},i)},s);function
+O(a){return a?aU(b,q,a[1]):a}var
+ap=d(ao,i),P=k(function(a){return aE(a,f(o))},ap),Q=P?d3(d(ao,i)):P;if(Q){var
+S=fX(u,i),T=S?k(function(a){return m(f(a),q)},g):S;if(T)var
+ar=f(j),v=m(f(s),ar);else
 var
-k=K;if(k){var
-A=0;if(w){var
-P=w[1],ac=0;if(typeof
-i==="number"&&!i){if(!g)return g;if(g[2])return 0;var
-ap=g[1],R=function(A,z,y){var
-D=$([0,B(s(a,P,av(A,C)),z),0],j),q=e(function(b){return L(a,b)},ap),c=y,f=D;for(;;){if(c){var
-k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,bA(g),h],f];if(m){var
-o=I(d,g[1]);if(o)var
-u=e(function(b){var
-c=s(a,P,b[2]),d=b[1][1];return[0,[0,an(b[1][2]),d],c]},m),v=e(function(a){return t},h),w=[0,a$(a),v],x=a$(a),b=nY(a,[0,Q(co(eP(a,h,q),x,g)),q],0,vp,w,u,n);else
+v=T}else
 var
-b=o}else
+v=Q;if(v){var
+G=0;if(l){var
+U=l[1],af=0;if(typeof
+h==="number"&&!h){if(!g)return g;if(g[2])return 0;var
+as=g[1],V=function(A,z,y){var
+C=X([0,B(r(b,U,aq(A,K)),z),0],q),p=d(function(a){return J(b,a)},as),c=y,f=C;for(;;){if(c){var
+j=c[1],k=j[1],g=k[2],h=k[1],l=j[2],m=[0,[0,br(g),h],f];if(l){var
+n=I(e,g[1]);if(n)var
+u=d(function(a){var
+c=r(b,U,a[2]),d=a[1][1];return[0,[0,aj(a[1][2]),d],c]},l),v=d(function(a){return t},h),w=[0,aV(b),v],x=aV(b),a=hv(b,[0,N(b8(d2(b,h,p),x,g)),p],0,vF,w,u,m);else
 var
-b=[0,n];if(b){var
-i=fG(a,b[1]);if(i){var
+a=n}else
+var
+a=[0,m];if(a){var
+i=eP(b,a[1]);if(i){var
 c=c[2],f=i[1];continue}var
-p=i}else
+o=i}else
 var
-p=b;var
-r=p}else
+o=a;var
+s=o}else
 var
-r=[0,f];return E(r)}};A=1;ac=1}if(!ac)return 0}else{var
-ad=0;if(typeof
-i!=="number"&&0===i[0]){var
-ae=0;if(g){var
-n=g[2];if(n){if(n[2])return 0;var
-W=n[1],o=i[1],at=g[1],au=i[2],aw=l(function(a){return H(a,d)},W)?0:[0,e(function(d){var
-e=L(a,b);return aH(d,c(2,c(2,b)),e)},W)],R=function(t,s,r){var
-u=$([0,Q(z(av(t,C),s)),0],j),c=au,b=r,f=u,v=e(function(b){return L(a,b)},at);for(;;){if(c){if(b){var
-h=b[1],i=h[1],d=c[1],m=b5(i[2]),n=aV(f,hc(o,d,dh(o,i[1],m,d))),p=h[2],q=e(function(c){return function(a){var
-b=Q(a[2]);return[0,e(an,dh(o,a[1][1],a[1][2],c)),b]}}(d),p),g=nY(a,v,aw,0,e(function(b){return aH(b,o,a$(a))},d),q,n);if(g){var
-c=c[2],b=b[2],f=g[1];continue}var
-k=g}else
+s=[0,f];return O(s)}};G=1;af=1}if(!af)return 0}else{var
+ag=0;if(typeof
+h!=="number"&&0===h[0]){var
+ah=0;if(g){var
+x=g[2];if(x){if(x[2])return 0;var
+$=x[1],y=h[1],av=g[1],aw=h[2],ax=k(function(a){return H(a,e)},$)?0:[0,d(function(d){var
+e=J(b,a);return aB(d,c(2,c(2,a)),e)},$)],V=function(s,r,p){var
+t=X([0,N(w(aq(s,K),r)),0],q),c=aw,a=p,f=t,u=d(function(a){return J(b,a)},av);for(;;){if(c){if(a){var
+h=a[1],i=h[1],e=c[1],l=bR(i[2]),m=aL(f,fL(y,e,cu(y,i[1],l,e))),n=h[2],o=d(function(c){return function(a){var
+b=N(a[2]);return[0,d(aj,cu(y,a[1][1],a[1][2],c)),b]}}(e),n),g=hv(b,u,ax,0,d(function(a){return aB(a,y,aV(b))},e),o,m);if(g){var
+c=c[2],a=a[2],f=g[1];continue}var
+j=g}else
 var
-k=b;var
-l=k}else
+j=a;var
+k=j}else
 var
-l=b?0:[0,f];return E(l)}};A=1;ad=1;ae=1}else
+k=a?0:[0,f];return O(k)}};G=1;ag=1;ah=1}else
 var
-X=n}else
+aa=x}else
 var
-X=g;if(!ae)return X}if(!ad)var
-V=0}if(A){var
-u=fR(Z,aj,x);if(u){var
-S=u[1],aq=N(D,S),T=l(function(a){var
-b=a[2],c=a[1],e=N(aA(0,f(c)),c);return l(function(h){var
-a=H(h[2],d);if(a)return a;var
-c=[0,b[2],b[1]];return ag(function(k){var
-l=_(t),a=q(h[1],k[2],l),b=H(a[1][1],d),c=b?H(a[1][2],d):b,e=c?H(a[2][1],d):c,f=e?H(a[2][2],d):e,j=0;if(f)if(a[3]){var
-i=0;j=1}else
+aa=g;if(!ah)return aa}if(!ag)var
+_=0}if(G){var
+D=eZ(A,am,j);if(D){var
+W=D[1],at=M(L,W),Y=k(function(a){return n7(a[1],a[2])},at);if(Y){var
+au=a4(q);return k(function(a){var
+c=M(L,W),e=d(function(c){return n5(b,z,a,al,c[1],c[2])},c);return V(a,aq(a,an),e)},au)}var
+Z=Y}else
 var
-g=1;else
+Z=D;return Z}}else
 var
-g=f;if(!j)var
-i=g;return J(i)},c)},e)},aq);if(T){var
-ar=a9(j);return l(function(b){var
-c=N(D,S),d=e(function(f){var
-c=f[2],i=f[1];function
-d(a){return av(b,a[1])}var
-g=n0(a,Y,b,0,ai,i,c),h=d(c[2]);return[0,[0,e(d,c[1]),h],g]},c);return R(b,av(b,ak),d)},ar)}var
-U=T}else
-var
-U=u;return U}}else
-var
-V=k;return V}var
-k=e(function(a){return d},p),y=w?[0,k,0]:[0,k,[0,k,0]],u=0;if(typeof
+_=v;return _}var
+u=d(function(a){return e},n),C=l?[0,u,0]:[0,u,[0,u,0]],y=0;if(typeof
 g!=="number")switch(g[0]){case
 5:var
-S=g[1],T=function(a){return j(a,S,0,0,y)},C=T,A=g[3],n=g[2];u=1;break;case
+U=g[1],V=function(a){return q(a,U,0,0,C)},G=V,E=g[3],v=g[2];y=1;break;case
 10:var
-K=g[4],M=g[3],O=g[2],i=g[1],P=0;if(typeof
+O=g[4],P=g[3],Q=g[2],i=g[1],S=0;if(typeof
 i!=="number"&&5===i[0]){var
-U=i[1],V=function(a){return j(a,U,O,M,K)},C=V,A=i[3],n=i[2];u=1;P=1}if(!P)return j(0,i,O,M,K);break}if(u){var
-o=h(R,p);if(o){var
-E=D(d,n);if(E)return C([0,fI(n,A,o[1])]);var
-F=E}else
+W=i[1],Y=function(a){return q(a,W,Q,P,O)},G=Y,E=i[3],v=i[2];y=1;S=1}if(!S)return q(0,i,Q,P,O);break}if(y){var
+x=h(T,n);if(x){var
+K=D(e,v);if(K)return G([0,fN(v,E,x[1])]);var
+L=K}else
 var
-F=o;return F}return j(0,g,0,0,y)}function
-n9(m,l,k,j,i,g,p,f,b,e,a){if(typeof
+L=x;return L}return q(0,g,0,0,C)}function
+ol(k,j,f,t,i,s,h,r,q,c,d,p,o,b){if(typeof
+d!=="number"&&14===d[0]){var
+u=d[1];switch(c[0]){case
+0:var
+n=0;if(b){if(b[2])return 0;var
+v=c1(i,h);if(v)var
+m=c[1],l=0,g=f;else{var
+w=v;n=1}}else{var
+w=b;n=1}if(n)return w;break;case
+1:if(!b)return b;if(b[2])return 0;var
+B=c[1],m=B,l=[0,J(k,a)],g=f;break;case
+4:if(!b)return b;if(b[2])return 0;var
+m=c[2],l=0,g=c[1];break;default:return 0}var
+x=d[3],y=d[2],z=oi(g),A=R(m);return hB(k,j,s,h,r,g,bD(eY(f,t,i,c,u),j),l,A,e,z,q,u,p,o,b,y,x)}return vV(k,j,f,t,i,s,h,r,q,c,d,p,o,b)}function
+om(m,l,k,j,i,g,p,f,b,d,a){if(typeof
 a!=="number")switch(a[0]){case
 5:var
 q=a[2],n=h(p,b);if(n){var
-r=D(d,q);if(r){var
-z=a[1];return n4(m,l,k,j,i,g,f,b,[0,fI(q,a[3],n[1])],e,z)}var
+r=D(e,q);if(r){var
+z=a[1];return og(m,l,k,j,i,g,f,b,[0,fN(q,a[3],n[1])],d,z)}var
 s=r}else
 var
 s=n;return s;case
@@ -3052,102 +3201,102 @@ s=n;return s;case
 t=a[4],u=a[3],v=a[2],c=a[1];if(typeof
 c!=="number"&&5===c[0]){var
 w=c[2],o=h(p,b);if(o){var
-x=D(d,w);if(x){var
-A=c[1];return n5(m,l,k,j,i,g,f,b,[0,fI(w,c[3],o[1])],e,A,v,u,t)}var
+x=D(e,w);if(x){var
+A=c[1];return ol(m,l,k,j,i,g,f,b,[0,fN(w,c[3],o[1])],d,A,v,u,t)}var
 y=x}else
 var
-y=o;return y}return n5(m,l,k,j,i,g,f,b,0,e,c,v,u,t)}return n4(m,l,k,j,i,g,f,b,0,e,a)}function
-jM(a){switch(a[0]){case
+y=o;return y}return ol(m,l,k,j,i,g,f,b,0,d,c,v,u,t)}return og(m,l,k,j,i,g,f,b,0,d,a)}function
+jT(a){switch(a[0]){case
 9:case
 10:return 0;default:return 1}}function
-hw(u,s,r,p,k,a,f,j){var
-h=jM(a),i=h?l(function(b){var
-a=q(b,by(eR,f,k),t);return H(a[1],a[2])},j):h;return i?l(function(ao){switch(a[0]){case
+hC(u,s,r,p,l,b,f,j){var
+h=jT(b),i=h?k(function(b){var
+a=q(b,bA(eW,f,l),t);return H(a[1],a[2])},j):h;return i?k(function(ao){switch(b[0]){case
 3:var
-f=[0,a[1],0];break;case
+f=[0,b[1],0];break;case
 4:var
-f=cv(a[1]);break;case
+f=bJ(b[1]);break;case
 5:var
-f=[0,a[1],[0,a[2],0]];break;case
+f=[0,b[1],[0,b[2],0]];break;case
 0:case
 1:case
 2:case
 7:var
 f=0;break;default:return 0}var
-j=cR(0,function(a){switch(a[0]){case
-0:return[0,[0,d]];case
+j=cS(0,function(b){switch(b[0]){case
+0:return[0,[0,e]];case
 1:var
-ad=a[1],ae=ag(function(a){return m(ad,a)},ao)?b:d;return[0,[0,ae]];case
+ad=b[1],ae=ag(function(a){return m(ad,a)},ao)?a:e;return[0,[0,ae]];case
 2:var
-af=H(a[1],d)?0:[0,d];return[0,af];case
+af=H(b[1],e)?0:[0,e];return[0,af];case
 3:var
-e=a[2],j=a[1];if(j){var
-z=j[1];if(z){if(e){var
-A=e[1];if(A){var
+d=b[2],j=b[1];if(j){var
+z=j[1];if(z){if(d){var
+A=d[1];if(A){var
 B=z[1],C=H(B,A[1]),ah=C?[0,[0,B]]:C;return ah}var
 E=j}else
 var
-E=e;return E}return e}if(e){if(e[1])return 0;var
+E=d;return E}return d}if(d){if(d[1])return 0;var
 F=j}else
 var
-F=e;return F;case
+F=d;return F;case
 4:var
-f=a[2],k=a[1];if(k){var
-I=k[1];if(I){if(f){var
+f=b[2],l=b[1];if(l){var
+I=l[1];if(I){if(f){var
 J=f[1];if(J){var
 K=I[1],L=H(K,J[1]),ai=L?[0,[0,K]]:L;return ai}var
-M=k}else
+M=l}else
 var
 M=f;return M}return f}if(f){if(f[1])return 0;var
-N=k}else
+N=l}else
 var
 N=f;return N;case
-5:return a[1];case
+5:return b[1];case
 6:var
-o=a[1];if(o){var
-O=o[1],g=a[2];if(O){if(g){var
+o=b[1];if(o){var
+O=o[1],g=b[2];if(O){if(g){var
 P=g[1];if(P)return[0,[0,G(O[1],P[1])]];var
-Q=vk}else
+Q=vA}else
 var
 Q=g;return Q}var
-aj=g?vl:g,R=aj}else
+aj=g?vB:g,R=aj}else
 var
 R=o;return R;case
 7:var
-p=a[1];if(p){var
-S=p[1],h=a[2];if(S){if(h)var
-q=h[1],ak=q?[0,[0,aT(S[1],q[1])]]:q,T=ak;else
+p=b[1];if(p){var
+S=p[1],h=b[2];if(S){if(h)var
+q=h[1],ak=q?[0,[0,aX(S[1],q[1])]]:q,T=ak;else
 var
 T=h;return T}var
-al=h?vm:h,V=al}else
+al=h?vC:h,U=al}else
 var
-V=p;return V;case
+U=p;return U;case
 8:var
-r=a[1];if(r){var
-W=r[1];if(W){var
-X=W[1];return[0,[0,G(X,X)]]}var
-Y=vn}else
+r=b[1];if(r){var
+V=r[1];if(V){var
+X=V[1];return[0,[0,G(X,X)]]}var
+Y=vD}else
 var
 Y=r;return Y;case
 9:var
-s=a[1];if(s){var
+s=b[1];if(s){var
 t=s[1];if(t){var
-i=t[1],x=a0(i);if(0===x)var
+i=t[1],x=a1(i);if(0===x)var
 n=1;else
 if(0<x)var
-n=D(i,b)?0:H(a1(i,aQ(2))[2],d)?1:0;else
+n=D(i,a)?0:H(a2(i,aS(2))[2],e)?1:0;else
 var
-y=U(i),n=D(y,b)?0:H(a1(y,aQ(2))[2],d)?1:0;var
-am=n?[0,[0,cO(i,c(2,b))]]:n,Z=am}else
+y=W(i),n=D(y,a)?0:H(a2(y,aS(2))[2],e)?1:0;var
+am=n?[0,[0,cP(i,c(2,a))]]:n,Z=am}else
 var
 Z=t;var
 _=Z}else
 var
 _=s;return _;default:var
-u=a[2];if(u){var
-v=a[3];if(v){var
-w=a[4];if(w)var
-an=[0,u[1],[0,v[1],[0,w[1],0]]],$=l(function(a){return a?H(a[1],d):1},an),aa=$?[0,[0,d]]:$;else
+u=b[2];if(u){var
+v=b[3];if(v){var
+w=b[4];if(w)var
+an=[0,u[1],[0,v[1],[0,w[1],0]]],$=k(function(a){return a?H(a[1],e):1},an),aa=$?[0,[0,e]]:$;else
 var
 aa=w;var
 ab=aa}else
@@ -3156,39 +3305,39 @@ ab=v;var
 ac=ab}else
 var
 ac=u;return ac}},u);function
-k(a){return a?a[1]:d}var
-h=e(function(a){return x(k,a)},j),i=l(function(c){var
+l(a){return a?a[1]:e}var
+h=d(function(a){return x(l,a)},j),i=k(function(c){var
 a=q(c,h,0),b=a?1:a;return b},p);if(i){var
-n=g(cv(r),f),o=g(cv(s),n);return l(function(c){var
+n=g(bJ(r),f),o=g(bJ(s),n);return k(function(c){var
 a=q(c,h,0);if(a){var
-b=a0(a[1]);return 0===b?1:0<b?0:0}return a},o)}return i},f):i}function
-hx(j,a,i,h,g,f,e,d,c,b){var
-k=cp(fQ(i,h,g,c,b),a);return jH(j,a,by(eR,e,f),k,d)}function
-n_(f,d,c,n,m,b,l,q,e,k,j,i,h,a){if(typeof
+b=a1(a[1]);return 0===b?1:0<b?0:0}return a},o)}return i},f):i}function
+hD(j,a,i,h,g,f,e,d,c,b){var
+k=bD(eY(i,h,g,c,b),a);return jO(j,a,bA(eW,e,f),k,d)}function
+on(f,d,c,n,m,b,l,q,e,k,j,i,h,a){if(typeof
 a!=="number"&&11===a[0]){var
-o=a[3],g=a[1],p=hw(d,c,n,m,b,k,g,a[2]);if(p){var
-r=hx(f,d,c,n,m,b,g,e,k,o);return n7(f,d,c,by(eR,g,b),l,r,e,j,i,h,o)}return p}return n7(f,d,c,b,l,q,e,j,i,h,a)}function
-n$(r,q,p,o,n,k,j,i,h,g,d,c,a){if(typeof
+o=a[3],g=a[1],p=hC(d,c,n,m,b,k,g,a[2]);if(p){var
+r=hD(f,d,c,n,m,b,g,e,k,o);return oj(f,d,c,bA(eW,g,b),l,r,e,j,i,h,o)}return p}return oj(f,d,c,b,l,q,e,j,i,h,a)}function
+oo(r,q,p,o,n,l,j,i,h,g,e,c,a){if(typeof
 a!=="number"&&12===a[0]){var
-b=a[1],s=J(m(f(b),0));if(s){var
-t=N(jC(e(function(a){return a[1][1][1]},b)),b);return l(function(a){var
-b=a[2],e=b[1];return n_(r,q,p,o,n,k,j,i,h,g,d,c,[0,[0,[0,[0,a[1][1],a[1][2]],e[1][2]],e[2]]],b[2])},t)}return s}return n_(r,q,p,o,n,k,j,i,h,g,d,c,0,a)}function
-oa(g,f,e){var
+b=a[1],s=L(m(f(b),0));if(s){var
+t=M(jF(d(function(a){return a[1][1][1]},b)),b);return k(function(a){var
+b=a[2],d=b[1];return on(r,q,p,o,n,l,j,i,h,g,e,c,[0,[0,[0,[0,a[1][1],a[1][2]],d[1][2]],d[2]]],b[2])},t)}return s}return on(r,q,p,o,n,l,j,i,h,g,e,c,0,a)}function
+op(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=at(g,b[1],a[1]);if(c){var
+c=au(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-ob(a){if(typeof
+oq(a){if(typeof
 a!=="number"&&11===a[0])return[0,a[1]];return 0}function
-oc(g,c,b,s,r,d,p,x,f,o,n,k,j,e,a){if(typeof
+or(g,c,b,s,r,d,p,x,f,o,n,l,j,e,a){if(typeof
 a!=="number"&&11===a[0]){var
-t=a[3],u=a[2],h=a[1],v=hw(c,b,s,r,d,o,h,u);if(v)var
-w=N(e,b),i=l(function(a){var
-b=a[1];return l(function(b){var
-d=J(fN(b[1],u));if(d)return d;var
-g=b[1],e=cR(0,function(a){switch(a[0]){case
+t=a[3],u=a[2],h=a[1],v=hC(c,b,s,r,d,o,h,u);if(v)var
+w=M(e,b),i=k(function(a){var
+b=a[1];return k(function(b){var
+d=L(cY(b[1],u));if(d)return d;var
+g=b[1],e=cS(0,function(a){switch(a[0]){case
 1:return m(a[1],g);case
 10:var
 d=a[2],e=d||a[3],f=e||a[4];return f;case
@@ -3197,96 +3346,96 @@ d=a[2],e=d||a[3],f=e||a[4];return f;case
 5:case
 8:case
 9:return a[1];default:var
-b=a[1],c=b||a[2];return c}},c),f=cv([0,a[2],0]);return ag(function(a){return q(a,e,0)},f)},b)},w);else
+b=a[1],c=b||a[2];return c}},c),f=bJ([0,a[2],0]);return ag(function(a){return q(a,e,0)},f)},b)},w);else
 var
 i=v;if(i){var
-y=hx(g,c,b,s,r,d,h,f,o,t);return n8(g,c,b,by(eR,h,d),p,y,f,n,k,j,e,t)}return i}return n8(g,c,b,d,p,x,f,n,k,j,e,a)}function
-hy(b,a){if(a){var
+y=hD(g,c,b,s,r,d,h,f,o,t);return ok(g,c,b,bA(eW,h,d),p,y,f,n,l,j,e,t)}return i}return ok(g,c,b,d,p,x,f,n,l,j,e,a)}function
+hE(b,a){if(a){var
 c=a[2];if(b){var
-e=hy(b[1],c);return[0,a[1],e]}var
+e=hE(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-od(c,b,a){var
-d=N(b,a);return l(function(a){var
-b=h(c,a[1]);return b?b:J(a[2])},d)}function
-fS(n,c,k,b,i,t,o,g,a,aj,r){switch(r[0]){case
+os(c,b,a){var
+d=M(b,a);return k(function(a){var
+b=h(c,a[1]);return b?b:L(a[2])},d)}function
+fY(n,c,l,b,i,t,o,g,a,aj,r){switch(r[0]){case
 0:var
-at=function(a){return l(J,a)},S=at,A=r[1];break;case
+au=function(a){return k(L,a)},T=au,A=r[1];break;case
 1:var
-au=r[4],aw=r[3],ax=r[2],ay=function(d){var
-e=dk(ax,a),f=fS(n,c,k,b,i,t,o,g,e[1],d,aw);return f?fS(n,c,k,b,i,t,o,g,e[2],d,au):f},S=ay,A=r[1];break;default:var
+av=r[4],aw=r[3],ax=r[2],ay=function(d){var
+e=ds(ax,a),f=fY(n,c,l,b,i,t,o,g,e[1],d,aw);return f?fY(n,c,l,b,i,t,o,g,e[2],d,av):f},T=ay,A=r[1];break;default:var
 az=r[4],aA=r[3],aB=r[2],aC=function(d){var
-e=od(jM,t,d);if(e){var
-f=dk(aB,g),h=fS(n,c,k,b,i,t,o,f[1],a,d,aA);if(h)return fS(n,c,k,b,i,t,o,f[2],a,d,az);var
+e=os(jT,t,d);if(e){var
+f=ds(aB,g),h=fY(n,c,l,b,i,t,o,f[1],a,d,aA);if(h)return fY(n,c,l,b,i,t,o,f[2],a,d,az);var
 j=h}else
 var
-j=e;return j},S=aC,A=r[1]}if(A){var
-w=jH(n,c,g,cp(y(function(e){var
+j=e;return j},T=aC,A=r[1]}if(A){var
+w=jO(n,c,g,bD(y(function(e){var
 a=e[2],d=0;if(typeof
 a==="number"){if(4!==a)d=1}else
 if(11!==a[0])d=1;if(d){var
-c=F(t,e[1]);return c?fQ(k,b,i,c[1],a):c}return 0},A),c),a),z=A,v=aj;for(;;){if(z){var
+c=F(t,e[1]);return c?eY(l,b,i,c[1],a):c}return 0},A),c),a),z=A,v=aj;for(;;){if(z){var
 ae=z[1],j=ae[2],P=ae[1],af=z[2],ak=0;if(typeof
 j==="number"&&4===j){var
 E=h(o,a);if(E)var
-am=E[1],al=a9(f(a)),Q=l(function(b){return function(a){return I(av(a,b)[2],d)}}(am),al);else
+am=E[1],al=a4(f(a)),Q=k(function(b){return function(a){return I(aq(a,b)[2],e)}}(am),al);else
 var
 Q=E;if(Q){var
-z=af,v=e(function(a){return 0},v);continue}var
+z=af,v=d(function(a){return 0},v);continue}var
 x=Q}else
 ak=1;if(ak){var
 ag=q(P,v,0);if(ag){var
-R=F(t,P);if(R){var
-p=R[1],T=0;if(typeof
-j==="number")T=1;else
+S=F(t,P);if(S){var
+p=S[1],U=0;if(typeof
+j==="number")U=1;else
 switch(j[0]){case
 11:var
-W=j[3],G=j[1],X=hw(c,k,b,i,g,p,G,j[2]);if(X)var
-ap=hx(n,c,k,b,i,g,G,a,p,W),s=n9(n,c,k,b,i,by(eR,G,g),o,ap,a,p,W);else
+X=j[3],G=j[1],Y=hC(c,l,b,i,g,p,G,j[2]);if(Y)var
+ap=hD(n,c,l,b,i,g,G,a,p,X),s=om(n,c,l,b,i,bA(eW,G,g),o,ap,a,p,X);else
 var
-s=X;break;case
+s=Y;break;case
 12:var
-H=j[1],Y=J(m(f(H),0));if(Y){var
-Z=J(hr(j));if(Z)var
-B=Z;else
+H=j[1],Z=L(m(f(H),0));if(Z){var
+_=L(hy(j));if(_)var
+B=_;else
 var
-ar=1<p[0]?0:1,B=ar}else
+as=1<p[0]?0:1,B=as}else
 var
-B=Y;if(B)var
-aq=N(jC(e(function(a){return a[1][1][1]},H)),H),s=l(function(C,f){return function(t){var
-u=t[2],e=t[1],v=hr(C),j=u[1],l=j[1][2],m=j[2],d=u[2],p=v?b:k;function
-q(a){return v?hs(a):a}if(typeof
+B=Z;if(B)var
+ar=M(jF(d(function(a){return a[1][1][1]},H)),H),s=k(function(C,f){return function(t){var
+u=t[2],e=t[1],v=hy(C),j=u[1],k=j[1][2],m=j[2],d=u[2],p=v?b:l;function
+q(a){return v?hz(a):a}if(typeof
 d!=="number"&&11===d[0]){var
-r=d[3],h=d[1],s=hw(c,k,b,i,g,f,h,d[2]);if(s){var
-y=q(r),z=e[2],A=e[1],B=hx(n,c,k,b,i,g,h,a,f,r);return n6(n,c,p,b,i,by(eR,h,g),o,B,a,f,A,z,l,m,y)}return s}var
-x=q(d);return n6(n,c,p,b,i,g,o,w,a,f,e[1],e[2],l,m,x)}}(j,p),aq);else
+r=d[3],h=d[1],s=hC(c,l,b,i,g,f,h,d[2]);if(s){var
+y=q(r),z=e[2],A=e[1],B=hD(n,c,l,b,i,g,h,a,f,r);return oh(n,c,p,b,i,bA(eW,h,g),o,B,a,f,A,z,k,m,y)}return s}var
+x=q(d);return oh(n,c,p,b,i,g,o,w,a,f,e[1],e[2],k,m,x)}}(j,p),ar);else
 var
 s=B;break;case
 13:var
-K=j[5],L=j[4],C=j[3],D=j[1];if(2===p[0]){var
-$=p[1],u=jK(n,D,j[2]);if(C){var
-as=jx(u,_(nZ(D,g,C))),aa=hf(f(a),as);if(aa){var
-U=ob(L);if(U){var
-V=ob(K);if(V)var
-an=V[1],ao=U[1],M=oa(function(a,b){return oa(m,a,b)},ao,an);else
+J=j[5],K=j[4],C=j[3],D=j[1];if(2===p[0]){var
+$=p[1],u=jR(n,D,j[2]);if(C){var
+at=hm(u,R(jM(D,g,C))),aa=hl(f(a),at);if(aa){var
+V=oq(K);if(V){var
+W=oq(J);if(W)var
+an=W[1],ao=V[1],N=op(function(a,b){return op(m,a,b)},ao,an);else
 var
-M=1}else
+N=1}else
 var
-M=1;var
-O=M}else
+N=1;var
+O=N}else
 var
 O=aa;var
-ab=O?oc(n,c,k,b,i,g,o,w,a,p,0,u,D,C,L):O,s=ab?oc(n,c,k,b,i,g,o,w,a,p,[0,$],u,D,C,K):ab}else
+ab=O?or(n,c,l,b,i,g,o,w,a,p,0,u,D,C,K):O,s=ab?or(n,c,l,b,i,g,o,w,a,p,[0,$],u,D,C,J):ab}else
 var
-ac=hf(f(a),u),ad=ac?n$(n,c,k,b,i,g,o,w,a,p,0,u,L):ac,s=ad?n$(n,c,k,b,i,g,o,w,a,p,[0,$],u,K):ad}else
+ac=hl(f(a),u),ad=ac?oo(n,c,l,b,i,g,o,w,a,p,0,u,K):ac,s=ad?oo(n,c,l,b,i,g,o,w,a,p,[0,$],u,J):ad}else
 var
-s=0;break;default:T=1}if(T)var
-s=n9(n,c,k,b,i,g,o,w,a,p,j);if(s){var
-z=af,v=hy(P,v);continue}var
+s=0;break;default:U=1}if(U)var
+s=om(n,c,l,b,i,g,o,w,a,p,j);if(s){var
+z=af,v=hE(P,v);continue}var
 ah=s}else
 var
-ah=R;var
+ah=S;var
 ai=ah}else
 var
 ai=ag;var
@@ -3294,142 +3443,142 @@ x=ai}}else
 var
 x=[0,v];break}}else
 var
-x=[0,aj];return x?S(x[1]):x}function
-jN(h,g,f,e,d,c,b,a){return function(i,j,k){return fS(h,g,f,e,d,b,a,c,i,j,k)}}function
-jO(a){return e(function(a){return 1},a)}function
-eU(a,d,b,c){function
-f(d,c){var
-f=N(a[1],b[1]);return e(function(a){var
-b=u(c,a[2]);return C(u(d,a[1]),b)},f)}if(a2(a[2],b[2])){var
-g=a[2];return[0,f(d,c),g]}var
-h=u(a[2],b[2]),i=u(c,a[2]);return[0,f(u(d,b[2]),i),h]}function
-oe(a){var
-c=n(b);return[0,e(function(a){return n(d)},a),c]}function
-bh(a,k){var
-f=k[1];switch(f[0]){case
+x=[0,aj];return x?T(x[1]):x}function
+jU(h,g,f,e,d,c,b,a){return function(i,j,k){return fY(h,g,f,e,d,b,a,c,i,j,k)}}function
+jV(a){return d(function(a){return 1},a)}function
+e0(a,e,b,c){function
+f(e,c){var
+f=M(a[1],b[1]);return d(function(a){var
+b=u(c,a[2]);return C(u(e,a[1]),b)},f)}if(a3(a[2],b[2])){var
+g=a[2];return[0,f(e,c),g]}var
+h=u(a[2],b[2]),i=u(c,a[2]);return[0,f(u(e,b[2]),i),h]}function
+ot(b){var
+c=n(a);return[0,d(function(a){return n(e)},b),c]}function
+bh(b,l){var
+f=l[1];switch(f[0]){case
 1:var
-t=f[1];if(ag(function(a){return m(t,a)},a)){var
-C=n(b);return[0,e(function(a){var
-c=m(a,t)?b:d;return n(c)},a),C]}return oe(a);case
+t=f[1];if(ag(function(a){return m(t,a)},b)){var
+C=n(a);return[0,d(function(b){var
+c=m(b,t)?a:e;return n(c)},b),C]}return ot(b);case
 3:var
-D=n(b),E=bh(a,f[2]),F=n(b);return eU(bh(a,f[1]),F,E,D);case
+D=n(a),E=bh(b,f[2]),F=n(a);return e0(bh(b,f[1]),F,E,D);case
 4:var
-G=n(U(b)),H=bh(a,f[2]),I=n(b);return eU(bh(a,f[1]),I,H,G);case
+G=n(W(a)),H=bh(b,f[2]),I=n(a);return e0(bh(b,f[1]),I,H,G);case
 5:var
-v=bh(a,f[1]),J=v[2];return[0,e(bB,v[1]),J];case
+v=bh(b,f[1]),J=v[2];return[0,d(bC,v[1]),J];case
 6:var
-w=f[2],x=f[1],K=bh(a,w);return eU(bh(a,x),w,K,x);case
+w=f[2],x=f[1],K=bh(b,w);return e0(bh(b,x),w,K,x);case
 7:var
-y=f[2],L=bB(k),M=bh(a,y),N=n(b),i=eU(bh(a,f[1]),N,M,L),O=i[1];if(l(function(a){return bf(d,a)},O))return i;var
+y=f[2],L=bC(l),M=bh(b,y),N=n(a),i=e0(bh(b,f[1]),N,M,L),O=i[1];if(k(function(a){return bf(e,a)},O))return i;var
 P=u(i[2],y);return[0,i[1],P];case
 8:var
-z=f[1],B=bh(a,z),Q=B[2],R=B[1],S=u(n(c(2,b)),z);return[0,e(function(a){return u(S,a)},R),Q];case
+z=f[1],B=bh(b,z),Q=B[2],R=B[1],S=u(n(c(2,a)),z);return[0,d(function(a){return u(S,a)},R),Q];case
 9:var
-j=bh(a,f[1]),T=j[1];if(l(function(a){return bf(d,a)},T)){var
-V=n(b);return[0,j[1],V]}var
-W=u(n(c(2,b)),k),X=u(j[2],W);return[0,j[1],X];case
+j=bh(b,f[1]),T=j[1];if(k(function(a){return bf(e,a)},T)){var
+U=n(a);return[0,j[1],U]}var
+V=u(n(c(2,a)),l),X=u(j[2],V);return[0,j[1],X];case
 10:var
-o=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,o]],q=[0,[10,1,h,g,o]],Y=A(g,q),Z=bh(a,g),_=A(h,p),$=eU(bh(a,h),_,Z,Y),aa=n(U(b)),ab=bh(a,o),r=eU($,n(c(2,b)),ab,aa),ac=r[1],ad=f[1]?p:bB(q),s=e(function(a){return u(ad,a)},ac);if(l(function(a){return bf(d,a)},s))return[0,s,r[2]];var
-ae=u(h,q),af=A(u(g,p),ae),ah=u(n(c(2,b)),af);return[0,s,u(r[2],ah)];default:return oe(a)}}function
-hz(c,a){var
-b=bh(c,a),f=b[1];return e(function(a){return bf(d,a)?a:aj(a,b[2])},f)}function
-of(g){var
-h=g[1],c=h[2],e=h[1];if(0===e[0]){var
-i=e[2],a=e[1];if(D(i,b)){if(0===c[0]){var
-j=c[2],m=c[1];if(D(j,b)){var
-k=H(a,m),l=k?fE(a):k;if(l)var
-n=H(g[2],d),f=n||H(a,d);else
+o=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,o]],q=[0,[10,1,h,g,o]],Y=A(g,q),Z=bh(b,g),_=A(h,p),$=e0(bh(b,h),_,Z,Y),aa=n(W(a)),ab=bh(b,o),r=e0($,n(c(2,a)),ab,aa),ac=r[1],ad=f[1]?p:bC(q),s=d(function(a){return u(ad,a)},ac);if(k(function(a){return bf(e,a)},s))return[0,s,r[2]];var
+ae=u(h,q),af=A(u(g,p),ae),ah=u(n(c(2,a)),af);return[0,s,u(r[2],ah)];default:return ot(b)}}function
+hF(c,a){var
+b=bh(c,a),f=b[1];return d(function(a){return bf(e,a)?a:ak(a,b[2])},f)}function
+ou(g){var
+h=g[1],c=h[2],d=h[1];if(0===d[0]){var
+i=d[2],b=d[1];if(D(i,a)){if(0===c[0]){var
+j=c[2],m=c[1];if(D(j,a)){var
+k=H(b,m),l=k?fJ(b):k;if(l)var
+n=H(g[2],e),f=n||H(b,e);else
 var
 f=l;var
-o=f?[0,a]:f;return o}return H(a1(j,aQ(2))[2],d)?0:0}return 0}return H(a1(i,aQ(2))[2],d)?0:0}return 0}function
-bR(c,b){var
-a=of(c);return a?n(a[1]):[0,[1,b]]}function
-cw(b,a){if(a)var
-d=cw([0,b],a[2]),c=[0,bR(a[1],b),d];else
+o=f?[0,b]:f;return o}return H(a2(j,aS(2))[2],e)?0:0}return 0}return H(a2(i,aS(2))[2],e)?0:0}return 0}function
+bU(c,b){var
+a=ou(c);return a?n(a[1]):[0,[1,b]]}function
+cx(b,a){if(a)var
+d=cx([0,b],a[2]),c=[0,bU(a[1],b),d];else
 var
 c=a;return c}function
 bi(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-hA(b,d,a){switch(a[0]){case
+hG(b,d,a){switch(a[0]){case
 0:var
 c=a[1],f=[0,[0,c[4],b],0],h=g(bi(c[3],b),f),i=g(bi(c[2],b),h);return g(bi(c[1],d),i);case
 1:var
 e=a[3],j=e?bi(e[1],d):e,k=g(bi(a[2],b),j);return g(bi(a[1],b),k);default:return bi(a[1],d)}}function
-ao(b,a){var
-c=n(d),e=q(O(vA,a),b,c),f=n(d),g=q(O(vB,a),b,f);return[0,q(a,b,n(d)),g,e]}function
-og(b,a){return ah(A,ah(C,dX,a),b)}function
-hB(c,b,a){if(a){var
-e=a[2],f=hB(c,bx(b),e),h=a[1];return g(hA(c,bG(d,b),h),f)}return a}function
-jP(g,e,c,j){if(c){var
-b=c[1],v=O(j,f(hA(g,bG(d,e),b))),w=c[2],x=jP(g,bx(e),w,v),a=cw(j,hA(g,bG(d,e),b));switch(b[0]){case
+ar(b,a){var
+c=n(e),d=q(P(vW,a),b,c),f=n(e),g=q(P(vX,a),b,f);return[0,q(a,b,n(e)),g,d]}function
+ov(b,a){return ah(A,ah(C,dY,a),b)}function
+hH(c,b,a){if(a){var
+d=a[2],f=hH(c,bp(b),d),h=a[1];return g(hG(c,bz(e,b),h),f)}return a}function
+jW(g,d,c,j){if(c){var
+b=c[1],v=P(j,f(hG(g,bz(e,d),b))),w=c[2],x=jW(g,bp(d),w,v),a=cx(j,hG(g,bz(e,d),b));switch(b[0]){case
 0:var
-l=b[1][5],m=q(vC,a,n(d)),o=ah(C,dX,ao(a,vD)),p=dW(ao(a,0)),r=ao(a,vE),h=nl(og(ao(a,vF),r),p,o,m,l);break;case
+l=b[1][5],m=q(vY,a,n(e)),o=ah(C,dY,ar(a,vZ)),p=dX(ar(a,0)),r=ar(a,v0),h=ns(ov(ar(a,v1),r),p,o,m,l);break;case
 1:var
-i=b[3],s=i?[0,dW(ao(a,vG))]:i,t=ah(C,dX,ao(a,vH)),u=ao(a,vI),h=nm(og(ao(a,0),u),t,s);break;default:var
-h=nn(dX,dW(ao(a,0)))}var
+i=b[3],s=i?[0,dX(ar(a,v2))]:i,t=ah(C,dY,ar(a,v3)),u=ar(a,v4),h=nt(ov(ar(a,0),u),t,s);break;default:var
+h=nu(dY,dX(ar(a,0)))}var
 k=[0,h,x]}else
 var
 k=c;return k}function
-b9(c,a){if(typeof
-a!=="number")switch(a[0]){case
+ca(c,b){if(typeof
+b!=="number")switch(b[0]){case
 4:var
-h=[5,a[3],a[2]];return[0,[0,h,h],d];case
+h=[5,b[3],b[2]];return[0,[0,h,h],e];case
 6:var
-j=a[2];return[0,[0,j,j],d];case
+j=b[2];return[0,[0,j,j],e];case
 8:var
-k=[5,a[2],a[1]];return[0,[0,k,k],d];case
+k=[5,b[2],b[1]];return[0,[0,k,k],e];case
 10:var
-p=a[3],q=eF(a[2]),l=[2,[2,eF(a[1]),q],p];return[0,[0,l,l],c];case
+p=b[3],q=eK(b[2]),l=[2,[2,eK(b[1]),q],p];return[0,[0,l,l],c];case
 11:var
-m=a[4];return[0,[0,m,m],c];case
+m=b[4];return[0,[0,m,m],c];case
 12:var
-n=[5,a[2],a[4]];return[0,[0,n,n],d];case
+n=[5,b[2],b[4]];return[0,[0,n,n],e];case
 13:var
-o=[5,a[2],a[3]];return[0,[0,o,o],d];case
+o=[5,b[2],b[3]];return[0,[0,o,o],e];case
 15:break;case
 0:case
 1:var
-f=[5,[0,b,b],a[1]];return[0,[0,f,f],d];case
+f=[5,[0,a,a],b[1]];return[0,[0,f,f],e];case
 5:case
 7:case
 9:var
-i=a[1];return[0,[0,i,i],d];default:var
-g=a[2];return[0,[0,g,g],c]}var
-e=[0,d,b];return[0,[0,e,e],d]}function
-fT(b,a){var
+i=b[1];return[0,[0,i,i],e];default:var
+g=b[2];return[0,[0,g,g],c]}var
+d=[0,e,a];return[0,[0,d,d],e]}function
+fZ(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-eV(c,a){if(0===a[0]){var
-e=[0,d,b],i=g(fT(c,a[5]),[0,[0,[0,e,e],d],0]),f=a[4],h=a[3];return g([0,[0,[0,h,h],c],[0,[0,[0,f,f],c],0]],i)}var
-j=fT(c,a[3]);return g(fT(c,a[2]),j)}function
-d1(b,a){if(typeof
+e1(c,b){if(0===b[0]){var
+d=[0,e,a],i=g(fZ(c,b[5]),[0,[0,[0,d,d],e],0]),f=b[4],h=b[3];return g([0,[0,[0,h,h],c],[0,[0,[0,f,f],c],0]],i)}var
+j=fZ(c,b[3]);return g(fZ(c,b[2]),j)}function
+d4(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-h=eV(b,a[2]);return g(eV(b,a[1]),h);case
+h=e1(b,a[2]);return g(e1(b,a[1]),h);case
 11:var
-i=fT(b,a[3]);return g(fT(b,a[2]),i);case
+i=fZ(b,a[3]);return g(fZ(b,a[2]),i);case
 12:var
 c=a[3],f=[5,[4,c,c],a[4]];return[0,[0,[0,f,f],b],0];case
 15:var
-j=a[2],k=a[1];return e(function(b){var
-a=[5,j,b];return[0,[0,a,a],d]},k)}return 0}function
-oh(c,b,a){var
-d=f(d1(c,b)),e=O(a[2],d);return[0,[0,a[1]],e]}function
-jQ(c,b){if(a2(b,c))return[0,n(d)];var
+j=a[2],k=a[1];return d(function(b){var
+a=[5,j,b];return[0,[0,a,a],e]},k)}return 0}function
+ow(c,b,a){var
+d=f(d4(c,b)),e=P(a[2],d);return[0,[0,a[1]],e]}function
+jX(c,b){if(a3(b,c))return[0,n(e)];var
 a=b[1];if(4===a[0]){var
-e=a2(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
-oi(x,p,a,o){switch(o[0]){case
+d=a3(a[1],c),f=d?[0,a[2]]:d;return f}return 0}function
+ox(x,p,b,o){switch(o[0]){case
 0:var
 i=F(x,o[1]);if(i){var
 j=i[1];if(j){var
-r=j[1],s=r[1],c=s[2],e=s[1],t=r[2],y=ao(a,vJ),z=ah(C,ah(A,e,a_(aj(q(vK,a,n(d)),t),c)),y),B=ao(a,vL),f=aj(q(0,a,n(d)),t),k=jQ(e[1],c[1]);if(k){var
-l=jQ(e[2],c[2]);if(l){var
-m=jQ(e[3],c[3]);if(m)var
-w=a_(f,c),g=ah(C,[0,k[1],l[1],m[1]],w);else
+r=j[1],s=r[1],c=s[2],d=s[1],t=r[2],y=ar(b,v5),z=ah(C,ah(A,d,a$(ak(q(v6,b,n(e)),t),c)),y),B=ar(b,v7),f=ak(q(0,b,n(e)),t),k=jX(d[1],c[1]);if(k){var
+l=jX(d[2],c[2]);if(l){var
+m=jX(d[3],c[3]);if(m)var
+w=a$(f,c),g=ah(C,[0,k[1],l[1],m[1]],w);else
 var
-g=ah(A,e,a_(A(n(b),f),c))}else
+g=ah(A,d,a$(A(n(a),f),c))}else
 var
-g=ah(A,e,a_(A(n(b),f),c))}else
+g=ah(A,d,a$(A(n(a),f),c))}else
 var
-g=ah(A,e,a_(A(n(b),f),c));var
+g=ah(A,d,a$(A(n(a),f),c));var
 u=[0,[0,ah(C,g,B),z]]}else
 var
 u=j;var
@@ -3437,68 +3586,68 @@ v=u}else
 var
 v=i;return v;case
 1:var
-D=ao(a,vM);return[0,[0,ao(a,0),D]];default:var
-E=h(p,ao(a,vN));return[0,[0,h(p,ao(a,0)),E]]}}function
-oj(e,d,c,h,g){var
-a=oi(e,d,aq(vO,c),h);if(a)var
-b=oi(e,d,az(vP,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
+D=ar(b,v8);return[0,[0,ar(b,0),D]];default:var
+E=h(p,ar(b,v9));return[0,[0,h(p,ar(b,0)),E]]}}function
+oy(e,d,c,h,g){var
+a=ox(e,d,ap(v_,c),h);if(a)var
+b=ox(e,d,aw(v$,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
 var
 f=a;return f}function
-ok(f,c,d,b,a){var
-h=eV(c,a),i=cw(d,g(eV(c,b),h));function
-j(a){return ah(C,dX,a)}return oj(e(function(a){var
+oz(f,c,e,b,a){var
+h=e1(c,a),i=cx(e,g(e1(c,b),h));function
+j(a){return ah(C,dY,a)}return oy(d(function(a){var
 b=a[7];return x(function(b){var
-c=di(a);return[0,[0,b,a[1]],c]},b)},f),j,i,b,a)}function
-d2(d,c,b,a){var
+c=dr(a);return[0,[0,b,a[1]],c]},b)},f),j,i,b,a)}function
+d5(d,c,b,a){var
 e=u(c,b);return A(u(d,a),e)}function
-bI(a){return y(function(a){return g(a[1],[0,a[2],0])},a)}function
-ol(b,a){if(b)if(a)var
-d=b[1],e=ol(b[2],a[2]),f=u(d[2],a[1]),c=[0,[0,bP(d[1]),f],e];else
+bK(a){return y(function(a){return g(a[1],[0,a[2],0])},a)}function
+oA(b,a){if(b)if(a)var
+d=b[1],e=oA(b[2],a[2]),f=u(d[2],a[1]),c=[0,[0,bS(d[1]),f],e];else
 var
 c=a;else
 var
 c=b;return c}function
-om(a){if(a){var
+oB(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=om(a[2]);if(d)var
-g=d[1],h=ac(c,c),e=[0,[0,[0,bP(c),h],g]];else
+c=b[1],d=oB(a[2]);if(d)var
+g=d[1],h=ac(c,c),e=[0,[0,[0,bS(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return vR}function
-fU(b,d,c,a){if(typeof
+f=b;return f}return wb}function
+f0(b,e,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-i=c[1],j=bR(b9(d,a),i);return[0,e(function(a){var
-b=u(a[2],j);return[0,bP(a[1]),b]},b)];case
-9:return om(b);case
+i=c[1],j=bU(ca(e,a),i);return[0,d(function(a){var
+b=u(a[2],j);return[0,bS(a[1]),b]},b)];case
+9:return oB(b);case
 15:var
 k=f(b),g=m(f(a[1]),k);if(g)var
-l=d1(d,a),h=[0,ol(b,cw(c[2],l))];else
+l=d4(e,a),h=[0,oA(b,cx(c[2],l))];else
 var
 h=g;return h}return 0}function
-hC(e,k,j,a){var
-P=j[1],c=bR(b9(k,a),P),t=0;if(typeof
-a==="number")t=1;else
-switch(a[0]){case
+hI(d,k,j,b){var
+P=j[1],c=bU(ca(k,b),P),t=0;if(typeof
+b==="number")t=1;else
+switch(b[0]){case
 2:var
-Q=function(a){return[0,A(a[4],c),0]},g=Q,f=a[1];break;case
+Q=function(a){return[0,A(a[4],c),0]},g=Q,f=b[1];break;case
 3:var
-R=function(a){return[0,A(c,a[4]),0]},g=R,f=a[1];break;case
+R=function(a){return[0,A(c,a[4]),0]},g=R,f=b[1];break;case
 4:var
 S=function(b){var
-a=b[1],d=X(a[3]),e=X(a[2]),f=X(a[1]),g=b[2];return[0,A(A(A(u(X(c),g),f),e),d),0]},g=S,f=a[1];break;case
+a=b[1],d=_(a[3]),e=_(a[2]),f=_(a[1]),g=b[2];return[0,A(A(A(u(_(c),g),f),e),d),0]},g=S,f=b[1];break;case
 6:var
 T=function(b){var
 a=b[5];if(a)var
-e=X(a[1]),f=u(X(c),e),d=[0,A(b[2],f),0];else
+e=_(a[1]),f=u(_(c),e),d=[0,A(b[2],f),0];else
 var
-d=a;return d},g=T,f=a[1];break;case
-7:if(e){var
-l=e[2];if(l){var
+d=a;return d},g=T,f=b[1];break;case
+7:if(d){var
+l=d[2];if(l){var
 m=l[2];if(m){if(m[2])return 0;var
-w=m[1],x=l[1],z=e[1],h=w[1],i=x[1],p=z[1],K=d2(i[1],i[2],h[1],h[2]),L=u(p[3],K),M=d2(i[1],i[3],h[1],h[3]),N=u(p[2],M),O=d2(i[2],i[3],h[2],h[3]),v=C(A(u(p[1],O),N),L),U=di(w),V=di(x),B=u(u(u(c,di(z)),V),U),W=[0,bB(C(v,B)),0],D=[0,A(v,B),W]}else
+w=m[1],x=l[1],z=d[1],h=w[1],i=x[1],p=z[1],K=d5(i[1],i[2],h[1],h[2]),L=u(p[3],K),M=d5(i[1],i[3],h[1],h[3]),N=u(p[2],M),O=d5(i[2],i[3],h[2],h[3]),v=C(A(u(p[1],O),N),L),U=dr(w),V=dr(x),B=u(u(u(c,dr(z)),V),U),W=[0,bC(C(v,B)),0],D=[0,A(v,B),W]}else
 var
 D=m;var
 E=D}else
@@ -3506,69 +3655,69 @@ var
 E=l;var
 G=E}else
 var
-G=e;return G;case
+G=d;return G;case
 10:var
-s=ok(e,k,j[2],a[1],a[2]);if(s){var
-H=s[1],I=H[2],J=H[1];return y(bP,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return s;case
+s=oz(d,k,j[2],b[1],b[2]);if(s){var
+H=s[1],I=H[2],J=H[1];return y(bS,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return s;case
 11:var
-Y=function(d){var
+X=function(d){var
 e=d[7];if(e)var
-n=d1(k,a),f=cw(j[2],n),h=ao(f,vQ),b=ah(A,ao(f,0),h),i=X(c),l=X(di(d)),m=aj(X(ac(b,d[1])),l),g=[0,A(A(ac(b,b),m),i),0];else
+n=d4(k,b),f=cx(j[2],n),h=ar(f,wa),a=ah(A,ar(f,0),h),i=_(c),l=_(dr(d)),m=ak(_(ac(a,d[1])),l),g=[0,A(A(ac(a,a),m),i),0];else
 var
-g=e;return g},g=Y,f=a[1];break;case
+g=e;return g},g=X,f=b[1];break;case
 12:var
-Z=function(e){var
-p=n(d),r=d1(k,a),s=q(0,cw(j[2],r),p),f=aj(s,di(e)),g=e[5];if(g){var
-l=aO(e[2]),h=aj(g[1],l),m=u(h,C(c,u(f,X(h))));return[0,A(n(b),m),0]}var
-i=e[7],o=i?[0,A(A(n(b),c),f),0]:i;return o},g=Z,f=a[1];break;case
+Y=function(d){var
+p=n(e),r=d4(k,b),s=q(0,cx(j[2],r),p),f=ak(s,dr(d)),g=d[5];if(g){var
+l=aQ(d[2]),h=ak(g[1],l),m=u(h,C(c,u(f,_(h))));return[0,A(n(a),m),0]}var
+i=d[7],o=i?[0,A(A(n(a),c),f),0]:i;return o},g=Y,f=b[1];break;case
 8:case
 9:case
 15:var
-r=fU(e,k,j,a);return r?bI(r[1]):r;default:t=1}if(t)return 0;var
-o=F(e,f);return o?g(o[1]):o}function
-jR(d,b,c,a){if(a){var
-e=a[1],f=a[2],h=jR(d,b,oh(b,e,c),f);return g(hC(d,b,c,e),h)}return a}var
-on=[0,d,b],oo=[0,[0,on,on],d];function
-jS(a){return J(cs(a[1][1],a[1][2]))}function
-hD(a){var
-b=aA(0,f(a));return aW(function(b){return jS(q(b,a,oo))},b)}function
-jT(b,a){var
-c=N(hD(b),a);return aW(function(a){return J(bf(d,a[2]))},c)}function
-fV(a,b){return jT(a,hz(hD(a),b))}function
-op(b,a){var
+r=f0(d,k,j,b);return r?bK(r[1]):r;default:t=1}if(t)return 0;var
+o=F(d,f);return o?g(o[1]):o}function
+jY(d,b,c,a){if(a){var
+e=a[1],f=a[2],h=jY(d,b,ow(b,e,c),f);return g(hI(d,b,c,e),h)}return a}var
+oC=[0,e,a],oD=[0,[0,oC,oC],e];function
+jZ(a){return L(ct(a[1][1],a[1][2]))}function
+hJ(a){var
+b=ax(0,f(a));return aP(function(b){return jZ(q(b,a,oD))},b)}function
+j0(b,a){var
+c=M(hJ(b),a);return aP(function(a){return L(bf(e,a[2]))},c)}function
+f1(a,b){return j0(a,hF(hJ(a),b))}function
+oE(b,a){var
 c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]}function
-oq(m,l,k,j,i,a){return ad(e(function(e){var
-a=q(e[1],k,oo),f=aT(a[2],j),g=[4,[0,c(2,b),b],i],d=[5,[3,a[1][2],a[1][1]],g],n=au(m,[0,[0,d,d],f]);return x(function(a){return[0,a,h(l,e[2])]},n)},a))}function
-or(f,e,a,d,c,b){return oq(f,e,a,d,c,fV(a,b))}function
-jU(g,f,n,m,l,e,c){var
-i=[5,l,e],a=au(g,[0,[0,i,i],d]);if(a){var
-b=or(g,f,n,m,e,c);if(b)var
+oF(m,l,k,j,i,b){return ad(d(function(e){var
+b=q(e[1],k,oD),f=aX(b[2],j),g=[4,[0,c(2,a),a],i],d=[5,[3,b[1][2],b[1][1]],g],n=av(m,[0,[0,d,d],f]);return x(function(a){return[0,a,h(l,e[2])]},n)},b))}function
+oG(f,e,a,d,c,b){return oF(f,e,a,d,c,f1(a,b))}function
+j1(g,f,n,m,l,d,c){var
+i=[5,l,d],a=av(g,[0,[0,i,i],e]);if(a){var
+b=oG(g,f,n,m,d,c);if(b)var
 o=[0,a[1],b[1]],j=[0,[0,h(f,c),o]];else
 var
 j=b;var
 k=j}else
 var
 k=a;return k}function
-os(c,G,n,al,k,j,o,s){if(s){var
-a=s[1],aH=s[2],aI=os(c,G,n,al,k,j,oh(j,a,o),aH);if(typeof
-a==="number")if(0===a)var
+oH(c,G,n,al,l,j,o,s){if(s){var
+b=s[1],aH=s[2],aI=oH(c,G,n,al,l,j,ow(j,b,o),aH);if(typeof
+b==="number")if(0===b)var
 g=[0,[0,t]];else
 var
-an=G[2],ao=G[1],ap=fJ(k),g=[0,[8,h(aB(n),ap),ao,an]];else
-switch(a[0]){case
+an=G[2],ao=G[1],ap=fO(l),g=[0,[8,h(aC(n),ap),ao,an]];else
+switch(b[0]){case
 0:var
-aq=au(c,b9(j,a)),g=x(function(a){return[0,P(c,a)]},aq);break;case
+aq=av(c,ca(j,b)),g=x(function(a){return[0,Q(c,a)]},aq);break;case
 1:var
-ar=au(c,b9(j,a)),g=x(function(a){return[1,P(c,a)]},ar);break;case
+ar=av(c,ca(j,b)),g=x(function(a){return[1,Q(c,a)]},ar);break;case
 5:var
-at=au(c,b9(j,a)),g=x(function(a){return[2,P(c,a)]},at);break;case
+at=av(c,ca(j,b)),g=x(function(a){return[2,Q(c,a)]},at);break;case
 8:var
-av=fU(k,j,o,a),g=x(function(a){var
-d=L(c,b);return[4,h(aB(n),a),d]},av);break;case
+au=f0(l,j,o,b),g=x(function(b){var
+d=J(c,a);return[4,h(aC(n),b),d]},au);break;case
 9:var
-w=fU(k,j,o,a);if(w){var
-y=au(c,b9(j,a));if(y)var
-aw=P(c,y[1]),ax=w[1],M=[0,[4,h(aB(n),ax),aw]];else
+w=f0(l,j,o,b);if(w){var
+y=av(c,ca(j,b));if(y)var
+aw=Q(c,y[1]),ax=w[1],M=[0,[4,h(aC(n),ax),aw]];else
 var
 M=y;var
 N=M}else
@@ -3576,10 +3725,10 @@ var
 N=w;var
 g=N;break;case
 10:var
-z=ok(k,j,o[2],a[1],a[2]);if(z){var
-O=z[1],Q=O[2],R=O[1],A=au(c,b9(j,a));if(A){var
-S=A[1],T=D(d,S[1]);if(T)var
-q=function(a){return op(n,a)},ay=q(Q[2]),az=q(Q[1]),aA=q(R[2]),U=[0,[6,q(R[1]),aA,az,ay,S]];else
+z=oz(l,j,o[2],b[1],b[2]);if(z){var
+O=z[1],P=O[2],R=O[1],A=av(c,ca(j,b));if(A){var
+S=A[1],T=D(e,S[1]);if(T)var
+q=function(a){return oE(n,a)},ay=q(P[2]),az=q(P[1]),aA=q(R[2]),U=[0,[6,q(R[1]),aA,az,ay,S]];else
 var
 U=T;var
 V=U}else
@@ -3590,24 +3739,24 @@ var
 W=z;var
 g=W;break;case
 12:var
-r=hC(k,j,o,a),u=0;if(r)if(r[2])var
+r=hI(l,j,o,b),u=0;if(r)if(r[2])var
 g=0;else{var
-X=i(c,0,a[2]),Y=X?i(c,1,a[4]):X;if(Y){var
+X=i(c,0,b[2]),Y=X?i(c,1,b[4]):X;if(Y){var
 B=[0,[3,h(n,r[1])]];u=1}else{var
 B=Y;u=1}}else{var
 B=r;u=1}if(u)var
 g=B;break;case
 13:var
-Z=a[1],_=F(k,Z),H=0;if(_){var
-$=i(c,1,a[2]),aa=$?i(c,1,a[3]):$;if(aa)var
-aC=au(c,b9(j,a)),g=x(function(a){return[7,Z,P(c,a)]},aC);else{var
+Z=b[1],_=F(l,Z),H=0;if(_){var
+$=i(c,1,b[2]),aa=$?i(c,1,b[3]):$;if(aa)var
+aB=av(c,ca(j,b)),g=x(function(a){return[7,Z,Q(c,a)]},aB);else{var
 ab=aa;H=1}}else{var
 ab=_;H=1}if(H)var
 g=ab;break;case
 14:var
-ac=a[2],ae=a[1],af=m(f(k),vS),ag=af?i(c,0,ae):af,ah=ag?i(c,1,ac):ag;if(ah){var
-C=au(c,b9(j,a));if(C)var
-E=ad(e(function(a){return jU(c,n,al,j,ae,ac,a[4])},k)),aD=E?[0,[9,C[1],E[1]]]:E,ai=aD;else
+ac=b[2],ae=b[1],af=m(f(l),wc),ag=af?i(c,0,ae):af,ah=ag?i(c,1,ac):ag;if(ah){var
+C=av(c,ca(j,b));if(C)var
+E=ad(d(function(a){return j1(c,n,al,j,ae,ac,a[4])},l)),aD=E?[0,[9,C[1],E[1]]]:E,ai=aD;else
 var
 ai=C;var
 aj=ai}else
@@ -3615,35 +3764,35 @@ var
 aj=ah;var
 g=aj;break;case
 15:var
-aE=[0,a[2],a[1]],aF=1,ak=l(function(a){return i(c,aF,a)},aE);if(ak)var
-aG=fU(k,j,o,a),g=x(function(a){var
-d=L(c,b);return[4,h(aB(n),a),d]},aG);else
+aE=[0,b[2],b[1]],aF=1,ak=k(function(a){return i(c,aF,a)},aE);if(ak)var
+aG=f0(l,j,o,b),g=x(function(b){var
+d=J(c,a);return[4,h(aC(n),b),d]},aG);else
 var
 g=ak;break;default:var
-p=hC(k,j,o,a),I=0;if(p){var
-v=p[2],J=p[1];if(v)if(v[2])var
+p=hI(l,j,o,b),I=0;if(p){var
+v=p[2],K=p[1];if(v)if(v[2])var
 g=0;else
 var
-as=h(n,v[1]),g=[0,[5,h(n,J),as]];else{var
-K=[0,[3,h(n,J)]];I=1}}else{var
-K=p;I=1}if(I)var
-g=K}var
+as=h(n,v[1]),g=[0,[5,h(n,K),as]];else{var
+L=[0,[3,h(n,K)]];I=1}}else{var
+L=p;I=1}if(I)var
+g=L}var
 am=[0,g,aI]}else
 var
 am=s;return am}function
-vT(a){var
+wd(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
-eW(a){if(0===a[0])return a[1];var
+e2(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-ot(a,c,g,b){if(0===c[0])return 0;if(b){var
+oI(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
-e=d[1],f=b[1],i=df(a,g,c[1]);if(i){var
-j=df(a,g,c[2]);if(j){var
-k=df(a,g,c[3]);if(k)var
-v=i[1],w=ct(f),l=B([0,ct(f),w],v),x=j[1],y=ct(e),m=B([0,ct(e),y],x),A=eM(e),C=[0,eM(e),A],D=[0,s(a,Q(z(m,m)),C),0],E=eM(f),F=[0,eM(f),E],G=[0,s(a,Q(z(l,l)),F),D],H=P(a,m),I=P(a,l),n=[0,[0,B(B(P(a,k[1]),I),H),t,G]];else
+e=d[1],f=b[1],i=dp(a,g,c[1]);if(i){var
+j=dp(a,g,c[2]);if(j){var
+k=dp(a,g,c[3]);if(k)var
+v=i[1],x=cv(f),l=B([0,cv(f),x],v),y=j[1],z=cv(e),m=B([0,cv(e),z],y),A=eS(e),C=[0,eS(e),A],D=[0,r(a,N(w(m,m)),C),0],E=eS(f),F=[0,eS(f),E],G=[0,r(a,N(w(l,l)),F),D],H=Q(a,m),I=Q(a,l),n=[0,[0,B(B(Q(a,k[1]),I),H),t,G]];else
 var
 n=k;var
 o=n}else
@@ -3655,20 +3804,20 @@ p=i;var
 q=p}else
 var
 q=h;var
-r=q}else
+s=q}else
 var
-r=d;var
-u=r}else
+s=d;var
+u=s}else
 var
 u=b;return u}function
-hE(a,p,o){var
-q=bi(p,o),b=e(function(b){return au(a,b)},q);if(b){var
+hK(a,p,o){var
+q=bi(p,o),b=d(function(b){return av(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 f=c[2];if(f){var
 i=f[1];if(i){if(f[2])return 0;var
-r=P(a,i[1]),s=P(a,h[1]);return I(d,z(z(P(a,g[1]),s),r)[1])}var
+r=Q(a,i[1]),s=Q(a,h[1]);return I(e,w(w(Q(a,g[1]),s),r)[1])}var
 j=i}else
 var
 j=f;var
@@ -3684,153 +3833,153 @@ m=g;var
 n=m}else
 var
 n=b;return n}function
-M(c,b,a){var
-d=at(c,b[3],a[3]),e=at(c,b[2],a[2]);return[0,at(c,b[1],a[1]),e,d]}function
-S(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
+O(c,b,a){var
+d=au(c,b[3],a[3]),e=au(c,b[2],a[2]);return[0,au(c,b[1],a[1]),e,d]}function
+T(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
 v(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
-aE(a){return S([5,[0,b,b],[6,v(a,a)]],a)}function
-dq(c,b,a){var
-d=bH(c,b[1],a);return d?bH(c,a,b[2]):d}function
-bC(c,b,a){var
-d=dq(c,b[1],a[1]),e=d?dq(c,b[2],a[2]):d;return e?dq(c,b[3],a[3]):e}function
-ou(b,c,a){switch(c[0]){case
+aG(b){return T([5,[0,a,a],[6,v(b,b)]],b)}function
+dw(c,b,a){var
+d=bI(c,b[1],a);return d?bI(c,a,b[2]):d}function
+bE(c,b,a){var
+d=dw(c,b[1],a[1]),e=d?dw(c,b[2],a[2]):d;return e?dw(c,b[3],a[3]):e}function
+oJ(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
-j=a[4],f=a[1],k=bC(b,d[1],f),l=k?i(b,1,v(f,f)):k,m=l?bC(b,d[2],a[2]):l,n=m?bC(b,d[3],a[3]):m,o=n?dq(b,d[4],j):n,p=o?i(b,1,j):o;return p?cM(d[5],a[5]):p}return 0;case
+j=a[4],f=a[1],k=bE(b,d[1],f),l=k?i(b,1,v(f,f)):k,m=l?bE(b,d[2],a[2]):l,n=m?bE(b,d[3],a[3]):m,o=n?dw(b,d[4],j):n,p=o?i(b,1,j):o;return p?cN(d[5],a[5]):p}return 0;case
 1:var
 q=c[3];if(1===a[0]){var
-e=a[3],r=bC(b,c[1],a[1]),s=r?bC(b,c[2],a[2]):r;if(s){if(q){if(e){var
-g=e[1],t=bC(b,q[1],g);if(t)return i(b,1,v(g,g));var
+e=a[3],r=bE(b,c[1],a[1]),s=r?bE(b,c[2],a[2]):r;if(s){if(q){if(e){var
+g=e[1],t=bE(b,q[1],g);if(t)return i(b,1,v(g,g));var
 u=t}else
 var
 u=e;return u}if(e)return 0;var
 w=1}else
 var
 w=s;return w}return 0;default:if(2===a[0]){var
-h=a[1],x=bC(b,c[1],h);return x?i(b,1,v(h,h)):x}return 0}}function
-cY(c,a,b){if(0===a[0])return bC(c,a[1],b);var
-d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=i(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),h=g?i(c,0,d):g;return h?dq(c,a[4],b[3]):h}function
-fW(g,f,i,h){var
+h=a[1],x=bE(b,c[1],h);return x?i(b,1,v(h,h)):x}return 0}}function
+c2(c,a,b){if(0===a[0])return bE(c,a[1],b);var
+d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=i(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),h=g?i(c,0,d):g;return h?dw(c,a[4],b[3]):h}function
+f2(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=ou(g,b[1],a[1]);if(d){var
+d=oJ(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
 e=a;var
 c=e}else
 var
-c=a?0:1;return c?cY(g,f[2],h):c}}function
-aS(c,b,a){var
-d=M(function(b,a){return[2,b,a]},a,b);return M(function(b,a){return[3,b,a]},d,c)}function
-d3(a,e,d,c){var
-b=aS(e,d,c),f=aE(a),g=S(v(aE(a),b),f);return M(function(b,a){return[3,b,a]},b,g)}function
-b_(f,e,d,a,c){var
-b=d3(f,e,d,c);return[3,[4,a,a],v(b,b)]}function
-cx(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
-b$(a,c){switch(a[0]){case
+c=a?0:1;return c?c2(g,f[2],h):c}}function
+aW(c,b,a){var
+d=O(function(b,a){return[2,b,a]},a,b);return O(function(b,a){return[3,b,a]},d,c)}function
+d6(a,e,d,c){var
+b=aW(e,d,c),f=aG(a),g=T(v(aG(a),b),f);return O(function(b,a){return[3,b,a]},b,g)}function
+cb(f,e,d,a,c){var
+b=d6(f,e,d,c);return[3,[4,a,a],v(b,b)]}function
+cy(c,b){return c?[6,b]:[3,[0,e,a],[6,b]]}function
+cc(b,c){switch(b[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=d3(d,f,e,c),h=b_(d,f,e,a[4],c),i=S([5,[0,b,b],cx(a[5],h)],g),j=aE(d);return M(function(b,a){return[2,b,a]},j,i);case
-1:return aE(aS(a[1],a[2],c));default:return aE(a[1])}}function
-bJ(a,b){switch(a[0]){case
+e=b[3],f=b[2],d=b[1],g=d6(d,f,e,c),h=cb(d,f,e,b[4],c),i=T([5,[0,a,a],cy(b[5],h)],g),j=aG(d);return O(function(b,a){return[2,b,a]},j,i);case
+1:return aG(aW(b[1],b[2],c));default:return aG(b[1])}}function
+bL(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=aE(c),g=b_(c,e,d,a[4],b),h=S(cx(a[5],g),f),i=d3(c,e,d,b);return M(function(b,a){return[2,b,a]},i,h);case
-1:return aS(a[1],a[2],b);default:return aE(a[1])}}function
-cZ(a,b){switch(a[0]){case
+d=a[3],e=a[2],c=a[1],f=aG(c),g=cb(c,e,d,a[4],b),h=T(cy(a[5],g),f),i=d6(c,e,d,b);return O(function(b,a){return[2,b,a]},i,h);case
+1:return aW(a[1],a[2],b);default:return aG(a[1])}}function
+c3(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=b_(e,d,c,a[4],b),i=cx(a[5],h),j=aS(d,c,b);return[3,v(aE(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cb(e,d,c,a[4],b),i=cy(a[5],h),j=aW(d,c,b);return[3,v(aG(e),j),i];case
 1:var
-f=a[2],g=a[1],k=aS(g,f,b);return[6,v(aS(g,f,b),k)];default:return v(aE(a[1]),b)}}function
-jV(a,b){switch(a[0]){case
-0:return[0,b_(a[1],a[2],a[3],a[4],b)];case
+f=a[2],g=a[1],k=aW(g,f,b);return[6,v(aW(g,f,b),k)];default:return v(aG(a[1]),b)}}function
+j2(a,b){switch(a[0]){case
+0:return[0,cb(a[1],a[2],a[3],a[4],b)];case
 1:var
-c=a[2],d=a[1],e=aS(d,c,b);return[0,v(aS(d,c,b),e)];default:return 0}}function
-fX(e,c,a){var
-f=[0,d,b];return am(function(b,d){var
-e=v(b$(b,c),a);return[2,[4,v(b$(b,c),a),e],d]},f,e)}function
-ov(f,e,c,a){if(f){if(e){var
-g=e[1],h=ov(f[2],e[2],c,a),i=v(b$(g,c),a),j=[4,v(b$(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
-ow(a){var
-c=a[1];return[0,[0,c[1],b],[0,c[2],b],[0,a[2],b]]}function
-jW(a,c){switch(a[0]){case
-0:return a[4];case
+c=a[2],d=a[1],e=aW(d,c,b);return[0,v(aW(d,c,b),e)];default:return 0}}function
+f3(d,c,b){var
+f=[0,e,a];return an(function(a,d){var
+e=v(cc(a,c),b);return[2,[4,v(cc(a,c),b),e],d]},f,d)}function
+oK(f,d,c,b){if(f){if(d){var
+g=d[1],h=oK(f[2],d[2],c,b),i=v(cc(g,c),b),j=[4,v(cc(g,c),b),i];return[2,[4,f[1],j],h]}return[0,e,a]}return[0,e,a]}function
+oL(b){var
+c=b[1];return[0,[0,c[1],a],[0,c[2],a],[0,b[2],a]]}function
+j3(b,c){switch(b[0]){case
+0:return b[4];case
 1:var
-d=a[2],e=a[1],f=aS(e,d,c);return[6,v(aS(e,d,c),f)];default:return[0,b,b]}}function
-ox(d,i){if(d){var
+d=b[2],e=b[1],f=aW(e,d,c);return[6,v(aW(e,d,c),f)];default:return[0,a,a]}}function
+oM(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=aS(a[1],a[2],i),k=aE(f),l=S(v(aE(f),g),k),h=[0,M(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=aW(a[1],a[2],i),k=aG(f),l=T(v(aG(f),g),k),h=[0,O(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=ox(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=oM(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return vU}function
-dr(a){return[0,a[1],a[2],a[3]]}function
-oy(a,b){switch(a[0]){case
+j=b;return j}return we}function
+dx(a){return[0,a[1],a[2],a[3]]}function
+oN(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=aE(d),j=b_(d,g,c,f,b),k=S(cx(a[5],j),i),l=d3(d,g,c,b),m=M(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,M(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=aG(d),j=cb(d,g,c,f,b),k=T(cy(a[5],j),i),l=d6(d,g,c,b),m=O(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,O(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=aS(a[1],h,b),n=[6,v(e,e)];return[0,[0,[0,M(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-oz(m,e,a){switch(a[0]){case
+h=a[2],e=aW(a[1],h,b),n=[6,v(e,e)];return[0,[0,[0,O(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
+oO(m,e,b){switch(b[0]){case
 0:var
-n=a[5],c=F(m,a[1]);if(c){var
+n=b[5],c=F(m,b[1]);if(c){var
 d=c[1];if(d)var
 f=d[1],g=f[1],i=f[2],o=g[2],p=g[1],j=function(a){var
-b=dr(n),c=S(a,o),d=M(function(b,a){return[3,b,a]},p,c);return M(function(b,a){return[2,b,a]},d,b)},q=j([5,a[4],i]),k=[0,[0,j([3,[0,b,b],[5,a[3],i]]),q]];else
+b=dx(n),c=T(a,o),d=O(function(b,a){return[3,b,a]},p,c);return O(function(b,a){return[2,b,a]},d,b)},q=j([5,b[4],i]),k=[0,[0,j([3,[0,a,a],[5,b[3],i]]),q]];else
 var
 k=d;var
 l=k}else
 var
 l=c;return l;case
 1:var
-r=dr(a[3]);return[0,[0,dr(a[2]),r]];default:var
-s=h(e,dr(a[3]));return[0,[0,h(e,dr(a[2])),s]]}}function
-oA(d,a,c,b){var
-e=S(a,b),f=S([3,d,a],c);return M(function(b,a){return[2,b,a]},f,e)}function
-oB(a,l,c,k,j,y){var
+r=dx(b[3]);return[0,[0,dx(b[2]),r]];default:var
+s=h(e,dx(b[3]));return[0,[0,h(e,dx(b[2])),s]]}}function
+oP(d,a,c,b){var
+e=T(a,b),f=T([3,d,a],c);return O(function(b,a){return[2,b,a]},f,e)}function
+oQ(a,l,c,k,j,y){var
 d=h(l,k);if(d){var
 m=d[1],e=h(l,j);if(e){var
-n=e[1],f=c[1],g=c[2],b=c[3],z=oA(b,g,n[1],n[2]),A=oA(b,f,m[1],m[2]),o=M(function(b,a){return[3,b,a]},A,z),B=eF(j),p=[4,b,[2,[2,eF(k),B],y]],q=i(a,1,b),r=q?i(a,0,f):q,s=r?i(a,0,[3,b,f]):r,t=s?i(a,0,g):s,u=t?i(a,0,[3,b,g]):t;if(u)return i(a,1,[3,[4,p,p],v(o,o)]);var
+n=e[1],f=c[1],g=c[2],b=c[3],z=oP(b,g,n[1],n[2]),A=oP(b,f,m[1],m[2]),o=O(function(b,a){return[3,b,a]},A,z),B=eK(j),p=[4,b,[2,[2,eK(k),B],y]],q=i(a,1,b),r=q?i(a,0,f):q,s=r?i(a,0,[3,b,f]):r,t=s?i(a,0,g):s,u=t?i(a,0,[3,b,g]):t;if(u)return i(a,1,[3,[4,p,p],v(o,o)]);var
 w=u}else
 var
 w=e;var
 x=w}else
 var
 x=d;return x}function
-oC(d,c,b,a,h,g,f,e){var
+oR(d,c,b,a,h,g,f,e){var
 j=i(d,1,b),k=j?i(d,1,a):j;if(k){var
-l=at(c,f,f),m=[4,[4,a,a],[4,at(c,g,g),l]];return i(d,1,[3,[4,[4,[4,b,b],[4,h,h]],at(c,e,e)],m])}return k}function
-oD(h,g,c,f,y,a){function
-T(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],v(f,f)]}var
-O=0;if(typeof
-a==="number")O=1;else
-switch(a[0]){case
+l=au(c,f,f),m=[4,[4,a,a],[4,au(c,g,g),l]];return i(d,1,[3,[4,[4,[4,b,b],[4,h,h]],au(c,e,e)],m])}return k}function
+oS(h,g,c,f,y,b){function
+S(b){return[4,[4,[5,[0,a,a],b],[5,[0,a,a],b]],v(f,f)]}var
+N=0;if(typeof
+b==="number")N=1;else
+switch(b[0]){case
 0:var
-aG=fX(g,c,f);return i(h,1,[3,T(a[1]),aG]);case
+aF=f3(g,c,f);return i(h,1,[3,S(b[1]),aF]);case
 1:var
-aH=T(a[1]);return i(h,1,[3,fX(g,c,f),aH]);case
+aH=S(b[1]);return i(h,1,[3,f3(g,c,f),aH]);case
 2:var
-aI=a[2],aJ=function(a){return[3,aI,cZ(a,c)]},A=aJ,z=a[1];break;case
+aI=b[2],aJ=function(a){return[3,aI,c3(a,c)]},A=aJ,z=b[1];break;case
 3:var
-aK=a[2],aL=function(a){return[3,cZ(a,c),aK]},A=aL,z=a[1];break;case
+aK=b[2],aL=function(a){return[3,c3(a,c),aK]},A=aL,z=b[1];break;case
 4:var
-U=a[3],V=a[2],aM=function(a){var
-b=b$(a,c);return[3,[4,[4,V,V],v(b$(a,c),b)],[4,U,U]]},A=aM,z=a[1];break;case
+U=b[3],V=b[2],aM=function(a){var
+b=cc(a,c);return[3,[4,[4,V,V],v(cc(a,c),b)],[4,U,U]]},A=aM,z=b[1];break;case
 5:var
-W=a[1],aN=v(f,f),aO=[4,[4,W,W],[4,fX(g,c,y),aN]],aP=v(y,y);return i(h,1,[3,[4,fX(g,c,f),aP],aO]);case
+W=b[1],aN=v(f,f),aO=[4,[4,W,W],[4,f3(g,c,y),aN]],aP=v(y,y);return i(h,1,[3,[4,f3(g,c,f),aP],aO]);case
 6:var
-X=a[2],C=F(g,a[1]);if(C){var
+X=b[2],C=F(g,b[1]);if(C){var
 k=C[1];if(0===k[0]){var
-D=k[4],aQ=b_(k[1],k[2],k[3],D,c),Y=cx(k[5],aQ);return i(h,1,[3,[4,[4,X,D],[4,X,D]],[4,Y,Y]])}var
+D=k[4],aQ=cb(k[1],k[2],k[3],D,c),Y=cy(k[5],aQ);return i(h,1,[3,[4,[4,X,D],[4,X,D]],[4,Y,Y]])}var
 Z=0}else
 var
 Z=C;return Z;case
 7:if(g){var
 p=g[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-_=q[1],$=p[1],aa=g[1],aR=jW(_,c),aT=jW($,c),aU=jW(aa,c),ab=[4,[4,[4,a[1],aU],aT],aR],l=bJ(_,c),m=bJ($,c),aV=bJ(aa,c),P=v(aV,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ac=i(h,1,[3,ab,P]);if(ac)return i(h,1,[2,ab,P]);var
+_=q[1],$=p[1],aa=g[1],aR=j3(_,c),aS=j3($,c),aT=j3(aa,c),ab=[4,[4,[4,b[1],aT],aS],aR],l=bL(_,c),m=bL($,c),aU=bL(aa,c),P=v(aU,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ac=i(h,1,[3,ab,P]);if(ac)return i(h,1,[2,ab,P]);var
 ad=ac}else
 var
 ad=q;var
@@ -3841,17 +3990,17 @@ af=ae}else
 var
 af=g;return af;case
 8:var
-aW=fX(g,c,f),aX=v(f,f);return i(h,1,[3,[4,[5,a[2],a[1]],aX],aW]);case
+aV=f3(g,c,f),aX=v(f,f);return i(h,1,[3,[4,[5,b[2],b[1]],aX],aV]);case
 9:var
-ag=a[1],E=ox(g,c);if(E){var
-aY=E[1],az=[0,d,b],aA=am(function(a,b){var
-c=v(aE(a),f);return[2,[4,v(aE(a),f),c],b]},az,aY);return i(h,1,[3,[4,[4,ag,ag],v(f,f)],aA])}return E;case
+ag=b[1],E=oM(g,c);if(E){var
+aY=E[1],az=[0,e,a],aA=an(function(a,b){var
+c=v(aG(a),f);return[2,[4,v(aG(a),f),c],b]},az,aY);return i(h,1,[3,[4,[4,ag,ag],v(f,f)],aA])}return E;case
 10:var
-aZ=a[3],a0=a[2],a1=a[1],aB=function(b,a){return[2,b,a]},aC=function(a){return M(aB,c,a)},aD=e(function(a){return oy(a,c)},g);return oB(h,function(a){return oz(aD,aC,a)},f,a1,a0,aZ);case
+aZ=b[3],a0=b[2],a1=b[1],aB=function(b,a){return[2,b,a]},aC=function(a){return O(aB,c,a)},aD=d(function(a){return oN(a,c)},g);return oQ(h,function(a){return oO(aD,aC,a)},f,a1,a0,aZ);case
 11:var
-ah=a[4],G=F(g,a[1]);if(G){var
-H=oy(G[1],c);if(H){var
-n=H[1][1][2],a2=dr(a[3]),a3=dr(a[2]),r=M(function(b,a){return[3,b,a]},a3,a2),ai=i(h,1,v(n,n));if(ai){var
+ah=b[4],G=F(g,b[1]);if(G){var
+H=oN(G[1],c);if(H){var
+n=H[1][1][2],a2=dx(b[3]),a3=dx(b[2]),r=O(function(b,a){return[3,b,a]},a3,a2),ai=i(h,1,v(n,n));if(ai){var
 a4=v(n,n),a5=v(r,n),a6=[5,[4,v(r,n),a5],a4];return i(h,1,[3,[4,ah,ah],[3,v(r,r),a6]])}var
 aj=ai}else
 var
@@ -3860,17 +4009,17 @@ ak=aj}else
 var
 ak=G;return ak;case
 12:var
-o=a[3],s=a[2],I=F(g,a[1]);if(I){var
-j=I[1],al=i(h,0,s),an=al?i(h,0,o):al;if(an){var
-a7=a[4];switch(j[0]){case
+o=b[3],s=b[2],I=F(g,b[1]);if(I){var
+j=I[1],al=i(h,0,s),am=al?i(h,0,o):al;if(am){var
+a7=b[4];switch(j[0]){case
 0:var
-w=j[4],x=[5,w,[6,b_(j[1],j[2],j[3],w,c)]],J=[4,x,[2,s,[4,[5,[4,o,o],w],[4,x,x]]]];break;case
+w=j[4],x=[5,w,[6,cb(j[1],j[2],j[3],w,c)]],J=[4,x,[2,s,[4,[5,[4,o,o],w],[4,x,x]]]];break;case
 1:var
-Q=j[2],R=j[1],aF=aS(R,Q,c),J=[2,s,[5,[4,o,o],[6,v(aS(R,Q,c),aF)]]];break;default:var
+Q=j[2],R=j[1],aE=aW(R,Q,c),J=[2,s,[5,[4,o,o],[6,v(aW(R,Q,c),aE)]]];break;default:var
 J=s}var
 K=i(h,1,[3,J,a7])}else
 var
-K=an;if(K){if(2===j[0])return i(h,1,v(f,f));var
+K=am;if(K){if(2===j[0])return i(h,1,v(f,f));var
 ao=1}else
 var
 ao=K;var
@@ -3880,10 +4029,10 @@ ap=I;return ap;case
 13:if(g){var
 t=g[2];if(t){var
 u=t[2];if(u){if(u[2])return 0;var
-aq=u[1],ar=t[1],as=g[1],at=a[1],L=F([0,f[1],[0,f[2],[0,f[3],0]]],at);if(L){var
-N=F([0,as,[0,ar,[0,aq,0]]],at);if(N){var
-au=N[1],a8=bJ(au,c),a9=b$(au,c),a_=bJ(aq,c),a$=S(f[3],a_),ba=bJ(ar,c),bb=S(f[2],ba),bc=bJ(as,c),bd=S(f[1],bc),be=M(function(b,a){return[2,b,a]},bd,bb),bf=M(function(b,a){return[2,b,a]},be,a$);return oC(h,v,a[2],a[3],L[1],bf,a9,a8)}var
-av=N}else
+aq=u[1],ar=t[1],as=g[1],at=b[1],L=F([0,f[1],[0,f[2],[0,f[3],0]]],at);if(L){var
+M=F([0,as,[0,ar,[0,aq,0]]],at);if(M){var
+au=M[1],a8=bL(au,c),a9=cc(au,c),a_=bL(aq,c),a$=T(f[3],a_),ba=bL(ar,c),bb=T(f[2],ba),bc=bL(as,c),bd=T(f[1],bc),be=O(function(b,a){return[2,b,a]},bd,bb),bf=O(function(b,a){return[2,b,a]},be,a$);return oR(h,v,b[2],b[3],L[1],bf,a9,a8)}var
+av=M}else
 var
 av=L;var
 aw=av}else
@@ -3896,57 +4045,57 @@ ay=ax}else
 var
 ay=g;return ay;case
 15:var
-bg=ov(a[1],g,c,f),bh=v(f,f);return i(h,1,[3,[4,a[2],bh],bg]);default:O=1}if(O)return 0;var
+bg=oK(b[1],g,c,f),bh=v(f,f);return i(h,1,[3,[4,b[2],bh],bg]);default:N=1}if(N)return 0;var
 B=F(g,z);return B?i(h,1,A(B[1])):B}function
-fY(g,h,f,c,a){var
-m=fW(g,h,f,c);if(m)if(typeof
-a==="number")return 0===a?ag(function(e){var
-a=jV(e,c);return a?i(g,0,[3,[0,d,b],a[1]]):a},f):nf(vV,e(function(b){var
-a=bJ(b,c);return[0,a[1],[0,a[2],[0,a[3],0]]]},f));else{if(0===a[0]){var
-j=F(h[3],a[1]);if(j){var
-p=j[1],q=ow(a[3]);return oD(g,f,c,ow(a[2]),q,p)}return j}var
-k=F(h[3],a[1]);if(k){var
-l=F(f,a[2]);if(l){var
-n=l[1],r=k[1],s=b$(n,c);return oD(g,f,c,b$(n,c),s,r)}var
+f4(g,h,f,c,b){var
+m=f2(g,h,f,c);if(m)if(typeof
+b==="number")return 0===b?ag(function(d){var
+b=j2(d,c);return b?i(g,0,[3,[0,e,a],b[1]]):b},f):nm(wf,d(function(b){var
+a=bL(b,c);return[0,a[1],[0,a[2],[0,a[3],0]]]},f));else{if(0===b[0]){var
+j=F(h[3],b[1]);if(j){var
+p=j[1],q=oL(b[3]);return oS(g,f,c,oL(b[2]),q,p)}return j}var
+k=F(h[3],b[1]);if(k){var
+l=F(f,b[2]);if(l){var
+n=l[1],r=k[1],s=cc(n,c);return oS(g,f,c,cc(n,c),s,r)}var
 o=l}else
 var
 o=k;return o}return m}function
-bS(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-oE(a){switch(a[0]){case
+bV(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+oT(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=bS(b[3]),f=bS(b[2]);return[0,bS(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=bV(b[3]),f=bV(b[2]);return[0,bV(b[1]),f,e,d,c];case
 1:var
-g=x(bS,a[3]),h=bS(a[2]);return[1,bS(a[1]),h,g];default:return[2,bS(a[1])]}}function
-jX(a){return 0===a[0]?bS(a[1]):[0,a[1],a[2],a[4][1]]}function
-oF(b,a){var
-c=jX(a[2]);return fW(b,a,e(oE,a[1]),c)}function
-jY(b,a,c){var
-d=[0,c,az(b,a)];return g(aq(b,a),d)}function
-bj(c,a){if(c){if(a){var
-e=bj(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
-oG(e,c,a){if(e){if(c){var
-f=c[1],g=oG(e[2],c[2],a),h=bj(f,a),i=[4,bj(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
-oH(b,a){if(b){if(a){var
-c=b[1],e=oH(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aL(function(a){return[4,c,a]},h,g,f,e)}var
+g=x(bV,a[3]),h=bV(a[2]);return[1,bV(a[1]),h,g];default:return[2,bV(a[1])]}}function
+j4(a){return 0===a[0]?bV(a[1]):[0,a[1],a[2],a[4][1]]}function
+oU(b,a){var
+c=j4(a[2]);return f2(b,a,d(oT,a[1]),c)}function
+j5(b,a,c){var
+d=[0,c,aw(b,a)];return g(ap(b,a),d)}function
+bj(c,b){if(c){if(b){var
+d=bj(c[2],b[2]);return[2,[4,c[1],b[1]],d]}return[0,e,a]}return[0,e,a]}function
+oV(d,c,b){if(d){if(c){var
+f=c[1],g=oV(d[2],c[2],b),h=bj(f,b),i=[4,bj(f,b),h];return[2,[4,d[1],i],g]}return[0,e,a]}return[0,e,a]}function
+oW(b,a){if(b){if(a){var
+c=b[1],e=oW(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aJ(function(a){return[4,c,a]},h,g,f,e)}var
 d=a}else
 var
 d=b;return d}function
-oI(b,c,a){var
-d=[0,c,az([0,b],a)];return g(aq(b,a),d)}function
-oJ(a,b){var
-e=m(a,vW),c=e||m(a,vX),d=c?m(f(b),a):c;return d?l(function(b){return m(f(b),a)},b):d}function
-oK(a){if(a){var
+oX(b,c,a){var
+d=[0,c,aw([0,b],a)];return g(ap(b,a),d)}function
+oY(a,b){var
+e=m(a,wg),c=e||m(a,wh),d=c?m(f(b),a):c;return d?k(function(b){return m(f(b),a)},b):d}function
+oZ(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=oK(a[2]);return x(function(a){return[0,c,a]},d)}return b}return vY}function
-hF(a){if(a){var
+c=b[1],d=oZ(a[2]);return x(function(a){return[0,c,a]},d)}return b}return wi}function
+hL(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=hF(a[2]);return x(function(a){return[0,c,a]},d)}return b}return vZ}function
-oL(a,l,k,f){var
-b=aD(a,l);if(b){var
-c=aD(a,k);if(c){var
-d=dg(a,f);if(d){var
-e=hb(a,f);if(e)var
-m=s(a,b[1],e[1]),g=[0,B(s(a,c[1],d[1]),m)];else
+c=b[1],d=hL(a[2]);return x(function(a){return[0,c,a]},d)}return b}return wj}function
+o0(a,l,k,f){var
+b=aF(a,l);if(b){var
+c=aF(a,k);if(c){var
+d=dq(a,f);if(d){var
+e=hi(a,f);if(e)var
+m=r(a,b[1],e[1]),g=[0,B(r(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -3958,26 +4107,26 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-oM(a){return a?I(a[1][2],d):a}function
-bT(a){return a?I(d,a[1][1]):a}function
-oN(d,a){return i(d,0,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],a])}function
-oO(d,a){if(a){var
-b=aD(d,a[1]);if(b)var
-c=oO(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+o1(a){return a?I(a[1][2],e):a}function
+bW(a){return a?I(e,a[1][1]):a}function
+o2(d,b){return i(d,0,[3,[0,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a))))))))),a],b])}function
+o3(d,a){if(a){var
+b=aF(d,a[1]);if(b)var
+c=o3(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return v0}function
-hG(d,a){if(a){var
-b=oO(d,a[1]);if(b)var
-c=hG(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+e=b;return e}return wk}function
+hM(d,a){if(a){var
+b=o3(d,a[1]);if(b)var
+c=hM(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return v1}function
-oP(b,a){return am(function(c,a){return z(P(b,c),a)},t,a)}function
-oQ(b,d){function
+e=b;return e}return wl}function
+o4(b,a){return an(function(c,a){return w(Q(b,c),a)},t,a)}function
+o5(b,d){function
 c(e,d,c,a){var
-f=s(b,d,c);return B(s(b,e,a),f)}if(d){var
+f=r(b,d,c);return B(r(b,e,a),f)}if(d){var
 e=d[1];if(e){var
 f=e[2];if(f){var
-g=f[2],q=f[1],r=e[1],a=d[2];if(g){if(g[2])return t;if(a){var
+g=f[2],q=f[1],s=e[1],a=d[2];if(g){if(g[2])return t;if(a){var
 h=a[1];if(h){var
 i=h[2];if(i){var
 j=i[2];if(j){if(j[2])return t;var
@@ -3985,60 +4134,60 @@ k=a[2];if(k){var
 l=k[1];if(l){var
 m=l[2];if(m){var
 n=m[2];if(n){if(n[2])return t;if(k[2])return t;var
-u=n[1],v=m[1],w=l[1],x=j[1],y=i[1],A=h[1],C=c(A,y,w,v),D=s(b,g[1],C),E=s(b,q,c(A,x,w,u));return z(B(s(b,r,c(y,x,v,u)),E),D)}return t}return t}return t}return t}return t}return t}return t}return t}if(a){var
+u=n[1],v=m[1],x=l[1],y=j[1],z=i[1],A=h[1],C=c(A,z,x,v),D=r(b,g[1],C),E=r(b,q,c(A,y,x,u));return w(B(r(b,s,c(z,y,v,u)),E),D)}return t}return t}return t}return t}return t}return t}return t}return t}if(a){var
 o=a[1];if(o){var
-p=o[2];return p?p[2]?t:a[2]?t:c(r,q,o[1],p[1]):t}return t}return t}return t}return t}return t}function
-oR(a,p,n,t,g,j){function
-a1(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bj(a,a)]}var
+p=o[2];return p?p[2]?t:a[2]?t:c(s,q,o[1],p[1]):t}return t}return t}return t}return t}return t}function
+o6(b,p,n,t,g,j){function
+a1(c,b){return[4,[4,[5,[0,a,a],c],[5,[0,a,a],c]],bj(b,b)]}var
 bM=n[1];function
-C(c){var
-a=[0,d,b];return am(function(a,b){var
-d=bj(a,c);return[2,[4,bj(a,c),d],b]},a,bM)}function
+C(b){var
+c=[0,e,a];return an(function(a,c){var
+d=bj(a,b);return[2,[4,bj(a,b),d],c]},c,bM)}function
 D(g,e){var
 a=F(n[1],g);if(a){var
 b=a[1],c=m(f(b),p);if(c)return h(e,b);var
 d=c}else
 var
 d=a;return d}var
-a2=l(function(c){var
+a2=k(function(c){var
 b=0;if(typeof
 j==="number")b=1;else
 switch(j[0]){case
 6:var
-a=v2;break;case
+a=wm;break;case
 13:case
 14:var
-a=v3;break;default:b=1}if(b)var
+a=wn;break;default:b=1}if(b)var
 a=p;return m(f(c),a)},g);if(a2){var
 w=0;if(typeof
 j==="number")w=1;else
 switch(j[0]){case
 0:if(g){if(g[2])return 0;var
-a4=g[1],bN=C(a4);return i(a,1,[3,a1(j[1],a4),bN])}return g;case
+a4=g[1],bN=C(a4);return i(b,1,[3,a1(j[1],a4),bN])}return g;case
 1:if(g){if(g[2])return 0;var
-a5=g[1],bO=a1(j[1],a5);return i(a,1,[3,C(a5),bO])}return g;case
+a5=g[1],bO=a1(j[1],a5);return i(b,1,[3,C(a5),bO])}return g;case
 2:if(g)return 0;var
-bP=j[2],bQ=function(b){if(typeof
-b!=="number"&&0===b[0])return i(a,1,[3,bP,b[1]]);return 0},ai=bQ,ah=j[1];break;case
+bP=j[2],bQ=function(a){if(typeof
+a!=="number"&&0===a[0])return i(b,1,[3,bP,a[1]]);return 0},ai=bQ,ah=j[1];break;case
 3:if(g)return 0;var
-bR=j[2],bS=function(b){if(typeof
-b!=="number"&&0===b[0])return i(a,1,[3,b[1],bR]);return 0},ai=bS,ah=j[1];break;case
+bR=j[2],bS=function(a){if(typeof
+a!=="number"&&0===a[0])return i(b,1,[3,a[1],bR]);return 0},ai=bS,ah=j[1];break;case
 4:if(g)return 0;var
-a6=j[3],a7=j[2],bU=function(d){var
+a6=j[3],a7=j[2],bT=function(d){var
 h=m(t,0);if(typeof
 d!=="number"&&1===d[0]){var
-e=d[2],f=d[1],g=i(a,0,[3,[2,a7,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b]],a6]);return g?h?oM(oL(a,f,e,a7)):bT(oL(a,f,e,a6)):g}return 0},ai=bU,ah=j[1];break;case
+e=d[2],f=d[1],g=i(b,0,[3,[2,a7,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a]],a6]);return g?h?o1(o0(b,f,e,a7)):bW(o0(b,f,e,a6)):g}return 0},ai=bT,ah=j[1];break;case
 5:if(g){var
 E=g[2];if(E){if(E[2])return 0;var
-ak=E[1],al=g[1],a8=j[1],bV=bj(al,al),bW=[4,[4,a8,a8],[4,C(ak),bV]],bX=bj(ak,ak);return i(a,1,[3,[4,C(al),bX],bW])}var
+ak=E[1],al=g[1],a8=j[1],bU=bj(al,al),bV=[4,[4,a8,a8],[4,C(ak),bU]],bX=bj(ak,ak);return i(b,1,[3,[4,C(al),bX],bV])}var
 a9=E}else
 var
 a9=g;return a9;case
 6:var
-a_=j[2],bY=j[3],bZ=function(b){var
-c=[5,bY,a_],d=i(a,1,a_);return d?i(a,1,[3,bj(b,b),[4,c,c]]):d},a$=D(j[1],bZ);if(a$){if(n[4]){if(g){var
+a_=j[2],bY=j[3],bZ=function(a){var
+c=[5,bY,a_],d=i(b,1,a_);return d?i(b,1,[3,bj(a,a),[4,c,c]]):d},a$=D(j[1],bZ);if(a$){if(n[4]){if(g){var
 G=g[1];if(G){if(G[2])return 0;if(g[2])return 0;var
-ba=G[1];return i(a,1,[4,ba,ba])}var
+ba=G[1];return i(b,1,[4,ba,ba])}var
 bb=G}else
 var
 bb=g;return bb}if(g)return 0;var
@@ -4046,11 +4195,11 @@ bc=1}else
 var
 bc=a$;return bc;case
 7:if(g){if(g[2])return 0;var
-bd=g[1],an=j[1],b0=j[3],b1=j[2],ao=hF(n[7]);if(ao){var
-H=ao[1],ap=F(bd,an);if(ap){var
-b2=ap[1],be=m(f(H),p),bf=be?l(function(a){return m(f(a),p)},H):be;if(bf){var
-aq=F(H,an);if(aq){var
-b3=aq[1];return D(an,function(b){return oC(a,bj,b1,b0,b2,oH(bd,H),b,b3)})}var
+bd=g[1],am=j[1],b0=j[3],b1=j[2],ao=hL(n[7]);if(ao){var
+H=ao[1],ap=F(bd,am);if(ap){var
+b2=ap[1],be=m(f(H),p),bf=be?k(function(a){return m(f(a),p)},H):be;if(bf){var
+aq=F(H,am);if(aq){var
+b3=aq[1];return D(am,function(a){return oR(b,bj,b1,b0,b2,oW(bd,H),a,b3)})}var
 bg=aq}else
 var
 bg=bf;var
@@ -4064,33 +4213,33 @@ bk=bi}else
 var
 bk=g;return bk;case
 8:if(g){if(g[2])return 0;var
-ar=g[1],b4=oG(j[1],n[1],ar),b5=bj(ar,ar);return i(a,1,[3,[4,j[2],b5],b4])}return g;case
+ar=g[1],b4=oV(j[1],n[1],ar),b5=bj(ar,ar);return i(b,1,[3,[4,j[2],b5],b4])}return g;case
 9:if(g)return 0;var
 bl=j[3],bm=j[2],b6=function(e){var
-f=i(a,1,bm),g=f?i(a,0,bl):f;if(g){var
-b=aD(a,bj(e,e));if(b){var
-c=aD(a,[5,bl,bm]);if(c){var
-d=js(a,c[1]);if(d){var
-l=P(a,d[1]);return bT([0,B(b[1],l)])}var
+f=i(b,1,bm),g=f?i(b,0,bl):f;if(g){var
+a=aF(b,bj(e,e));if(a){var
+c=aF(b,[5,bl,bm]);if(c){var
+d=jx(b,c[1]);if(d){var
+l=Q(b,d[1]);return bW([0,B(a[1],l)])}var
 h=d}else
 var
 h=c;var
 j=h}else
 var
-j=b;var
+j=a;var
 k=j}else
 var
 k=g;return k};return D(j[1],b6);case
 10:if(g)return 0;var
-b7=j[2],b8=function(b){var
-c=[4,b7,b[3]],d=i(a,1,c);return d?i(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},bo=b8,bn=j[1];w=2;break;case
+b7=j[2],b8=function(a){var
+c=[4,b7,a[3]],d=i(b,1,c);return d?i(b,1,[3,[4,c,c],[4,a[2],a[2]]]):d},bo=b8,bn=j[1];w=2;break;case
 11:if(g)return 0;var
 b9=j[2],b_=function(e){var
-b=dg(a,b9);if(b){var
-c=aD(a,e[3]);if(c){var
-d=aD(a,e[2]);if(d){var
-f=s(a,b[1],c[1]),g=bT([0,f]);if(g){var
-k=P(a,d[1]);return bT([0,B(P(a,f),k)])}var
+a=dq(b,b9);if(a){var
+c=aF(b,e[3]);if(c){var
+d=aF(b,e[2]);if(d){var
+f=r(b,a[1],c[1]),g=bW([0,f]);if(g){var
+k=Q(b,d[1]);return bW([0,B(Q(b,f),k)])}var
 h=g}else
 var
 h=d;var
@@ -4099,14 +4248,14 @@ var
 i=c;var
 j=i}else
 var
-j=b;return j},bo=b_,bn=j[1];w=2;break;case
+j=a;return j},bo=b_,bn=j[1];w=2;break;case
 12:if(g)return 0;var
-au=oK(n[3]);if(au){var
-bq=au[1],b$=j[1],br=by(function(b,a){return[4,b,a[3]]},bq,b$),av=e(function(a){return a[1]},bq),x=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(av){var
-O=av[1];if(O){var
-R=O[2];if(R){var
-S=R[2],aC=R[1],aE=O[1],o=av[2];if(S)if(S[2]||!o)var
-k=[0,d,b];else{var
+au=oZ(n[3]);if(au){var
+bq=au[1],b$=j[1],br=bA(function(b,a){return[4,b,a[3]]},bq,b$),av=d(function(a){return a[1]},bq),x=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(av){var
+P=av[1];if(P){var
+R=P[2];if(R){var
+S=R[2],aC=R[1],aD=P[1],o=av[2];if(S)if(S[2]||!o)var
+l=[0,e,a];else{var
 T=o[1];if(T){var
 U=T[2];if(U){var
 V=U[2];if(V&&!V[2]){var
@@ -4114,52 +4263,52 @@ W=o[2];if(W){var
 X=W[1];if(X){var
 Y=X[2];if(Y){var
 Z=Y[2];if(Z&&!(Z[2]||W[2]))var
-aF=Z[1],aG=Y[1],aH=X[1],aI=V[1],aJ=U[1],aK=T[1],bF=x(aK,aJ,aH,aG),bG=[4,S[1],bF],bH=[4,aC,x(aK,aI,aH,aF)],k=[2,[3,[4,aE,x(aJ,aI,aG,aF)],bH],bG];else
+aE=Z[1],aG=Y[1],aH=X[1],aI=V[1],aJ=U[1],aK=T[1],bF=x(aK,aJ,aH,aG),bG=[4,S[1],bF],bH=[4,aC,x(aK,aI,aH,aE)],l=[2,[3,[4,aD,x(aJ,aI,aG,aE)],bH],bG];else
 var
-k=[0,d,b]}else
+l=[0,e,a]}else
 var
-k=[0,d,b]}else
+l=[0,e,a]}else
 var
-k=[0,d,b]}else
+l=[0,e,a]}else
 var
-k=[0,d,b]}else
+l=[0,e,a]}else
 var
-k=[0,d,b]}else
+l=[0,e,a]}else
 var
-k=[0,d,b]}else
+l=[0,e,a]}else
 var
-k=[0,d,b]}else
+l=[0,e,a]}else
 if(o){var
 _=o[1];if(_)var
-$=_[2],k=$?$[2]?[0,d,b]:o[2]?[0,d,b]:x(aE,aC,_[1],$[1]):[0,d,b];else
+$=_[2],l=$?$[2]?[0,e,a]:o[2]?[0,e,a]:x(aD,aC,_[1],$[1]):[0,e,a];else
 var
-k=[0,d,b]}else
+l=[0,e,a]}else
 var
-k=[0,d,b]}else
+l=[0,e,a]}else
 var
-k=[0,d,b]}else
+l=[0,e,a]}else
 var
-k=[0,d,b]}else
+l=[0,e,a]}else
 var
-k=[0,d,b];var
-bs=i(a,1,[3,br,k]);if(bs)return i(a,1,[2,br,k]);var
+l=[0,e,a];var
+bs=i(b,1,[3,br,l]);if(bs)return i(b,1,[2,br,l]);var
 bt=bs}else
 var
 bt=au;return bt;case
 13:var
 ca=j[2],aw=F(n[4],j[1]);if(aw){var
 ax=aw[1];if(ax){var
-bu=function(a){if(ca){var
-c=h(n[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=h(n[5],a);return M(function(b,a){return[3,b,a]},e,c)}return a},I=j[4],u=bu(dr(j[3])),J=ax[1][1][2],q=v(J,u);if(oN(a,I)){if(t){if(t[1])return 0;if(g){var
+bu=function(b){if(ca){var
+c=h(n[5],[0,[0,e,a],[0,e,a],[0,e,a]]),d=h(n[5],b);return O(function(b,a){return[3,b,a]},d,c)}return b},I=j[4],u=bu(dx(j[3])),J=ax[1][1][2],q=v(J,u);if(o2(b,I)){if(t){if(t[1])return 0;if(g){var
 y=g[1];if(y){var
 z=y[2];if(z){var
 A=z[2];if(A){if(A[2])return 0;if(g[2])return 0;var
-aa=bu([0,y[1],z[1],A[1]]),aL=v(J,aa),aM=i(a,1,q);if(aM){var
-ab=dg(a,I);if(ab){var
-aN=ab[1],ac=aD(a,[4,v(u,u),[4,aL,aL]]);if(ac){var
-ad=aD(a,[4,[4,q,q],v(aa,aa)]);if(ad){var
-aO=bT([0,aN]);if(aO){var
-bI=ad[1],bJ=ac[1];return bT([0,B(s(a,P(a,aN),bJ),bI)])}var
+aa=bu([0,y[1],z[1],A[1]]),aL=v(J,aa),aM=i(b,1,q);if(aM){var
+ab=dq(b,I);if(ab){var
+aN=ab[1],ac=aF(b,[4,v(u,u),[4,aL,aL]]);if(ac){var
+ad=aF(b,[4,[4,q,q],v(aa,aa)]);if(ad){var
+aO=bW([0,aN]);if(aO){var
+bI=ad[1],bJ=ac[1];return bW([0,B(r(b,Q(b,aN),bJ),bI)])}var
 aP=aO}else
 var
 aP=ad;var
@@ -4183,12 +4332,12 @@ var
 aV=y;var
 aW=aV}else
 var
-aW=g;return aW}return g?0:i(a,1,[3,[0,d,b],q])}if(t)return 0;if(g)return 0;var
-aX=i(a,0,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],I]);if(aX){var
-ae=dg(a,I);if(ae){var
-af=aD(a,q);if(af){var
-bK=v(J,J),ag=aD(a,[6,[4,v(u,u),bK]]);if(ag){var
-bL=s(a,ae[1],ag[1]);return oM([0,B(af[1],bL)])}var
+aW=g;return aW}return g?0:i(b,1,[3,[0,e,a],q])}if(t)return 0;if(g)return 0;var
+aX=i(b,0,[3,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a],I]);if(aX){var
+ae=dq(b,I);if(ae){var
+af=aF(b,q);if(af){var
+bK=v(J,J),ag=aF(b,[6,[4,v(u,u),bK]]);if(ag){var
+bL=r(b,ae[1],ag[1]);return o1([0,B(af[1],bL)])}var
 aY=ag}else
 var
 aY=af;var
@@ -4204,45 +4353,45 @@ bv=aw;return bv;case
 14:if(g){var
 K=g[1];if(K){var
 L=K[2];if(L){var
-N=L[2];if(N){if(N[2])return 0;if(g[2])return 0;var
-cb=j[3],cc=j[2],cd=j[1],ce=[0,K[1],L[1],N[1]],cf=n[5],cg=n[4];return oB(a,function(a){return oz(cg,cf,a)},ce,cd,cc,cb)}var
-bw=N}else
+M=L[2];if(M){if(M[2])return 0;if(g[2])return 0;var
+cb=j[3],cc=j[2],cd=j[1],ce=[0,K[1],L[1],M[1]],cf=n[5],cg=n[4];return oQ(b,function(a){return oO(cg,cf,a)},ce,cd,cc,cb)}var
+bw=M}else
 var
 bw=L;var
 bx=bw}else
 var
 bx=K;var
-bz=bx}else
+by=bx}else
 var
-bz=g;return bz;case
+by=g;return by;case
 17:if(g)return 0;var
-bA=j[2],ay=j[1],ch=j[3],az=hF(n[7]);if(az){var
-aA=az[1],bB=oJ(p,aA),bC=bB?m(f(bA),p):bB;if(bC){var
+bz=j[2],ay=j[1],ch=j[3],az=hL(n[7]);if(az){var
+aA=az[1],bB=oY(p,aA),bC=bB?m(f(bz),p):bB;if(bC){var
 aB=F(aA,ay);if(aB){var
 ci=aB[1];return D(ay,function(x){var
-e=hG(a,aA);if(e){var
-j=e[1],f=hG(a,[0,bA,[0,x,[0,ci,0]]]);if(f){var
-b=f[1];if(b){var
-c=b[2];if(c){var
+e=hM(b,aA);if(e){var
+j=e[1],f=hM(b,[0,bz,[0,x,[0,ci,0]]]);if(f){var
+a=f[1];if(a){var
+c=a[2];if(c){var
 d=c[2];if(d){if(d[2])return 0;var
-g=aD(a,ch);if(g){var
-k=g[1],l=P(a,oQ(a,j)),h=oQ(a,oI(ay,b[1],j)),n=bT([0,k]),o=n?bT([0,l]):n;if(o)var
-y=m(t,0)?h:Q(h),i=bT([0,y]);else
+g=aF(b,ch);if(g){var
+k=g[1],l=Q(b,o5(b,j)),h=o5(b,oX(ay,a[1],j)),n=bW([0,k]),o=n?bW([0,l]):n;if(o)var
+y=m(t,0)?h:N(h),i=bW([0,y]);else
 var
 i=o;if(i){var
-z=oP(a,c[1]),A=s(a,s(a,P(a,k),l),z),C=oP(a,d[1]);return bT([0,B(s(a,P(a,h),C),A)])}var
+z=o4(b,c[1]),A=r(b,r(b,Q(b,k),l),z),C=o4(b,d[1]);return bW([0,B(r(b,Q(b,h),C),A)])}var
 p=i}else
 var
 p=g;var
 q=p}else
 var
 q=d;var
-r=q}else
+s=q}else
 var
-r=c;var
-u=r}else
+s=c;var
+u=s}else
 var
-u=b;var
+u=a;var
 v=u}else
 var
 v=f;var
@@ -4266,127 +4415,127 @@ bp=as;return bp;default:var
 aj=F(n[2],ah);return aj?ai(aj[1]):aj}}else
 var
 a3=a2;return a3}function
-fZ(d,f,a){if(typeof
-a!=="number")switch(a[0]){case
+f5(d,f,b){if(typeof
+b!=="number")switch(b[0]){case
 13:var
-e=a[4];if(oN(d,e)&&J(i(d,0,[3,e,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b]])))return v6;return v7;case
+e=b[4];if(o2(d,e)&&L(i(d,0,[3,e,[0,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a))))))))),a]])))return wq;return wr;case
 16:return f;case
 4:case
-17:return v5}return v4}function
-d4(e,d,g,f){var
+17:return wp}return wo}function
+d7(e,d,g,f){var
 b=g,a=f;for(;;){if(a){var
-c=a[1];if(aF(b,fZ(e,d,c)))return[0,[0,c,b]];var
-h=a[2],b=dN(b,fZ(e,d,c)),a=h;continue}return a}}function
-f0(a){return e(function(a){return[0,a,b]},a)}function
-jZ(f,o,g,c,n,a){if(typeof
-a==="number"){if(0===a){var
-s=c[6];return ag(function(a){return i(f,0,[3,[0,d,b],a])},s)}var
-h=hF(c[7]);return h?nf(g,h[1]):h}else{if(0===a[0]){var
-j=d4(f,o,a[1],n);if(j){var
-p=j[1],t=p[1],u=e(f0,a[2]);return oR(f,g,c,p[2],u,t)}return j}var
-k=d4(f,o,a[1],n);if(k){var
+c=a[1];if(aE(b,f5(e,d,c)))return[0,[0,c,b]];var
+h=a[2],b=dO(b,f5(e,d,c)),a=h;continue}return a}}function
+f6(b){return d(function(b){return[0,b,a]},b)}function
+j6(f,o,g,c,n,b){if(typeof
+b==="number"){if(0===b){var
+s=c[6];return ag(function(b){return i(f,0,[3,[0,e,a],b])},s)}var
+h=hL(c[7]);return h?nm(g,h[1]):h}else{if(0===b[0]){var
+j=d7(f,o,b[1],n);if(j){var
+p=j[1],t=p[1],u=d(f6,b[2]);return o6(f,g,c,p[2],u,t)}return j}var
+k=d7(f,o,b[1],n);if(k){var
 q=k[1],l=q[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=F(c[1],a[2]);return m?oR(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
+m=F(c[1],b[2]);return m?o6(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
 r=0}else
 var
 r=k;return r}}function
-j0(a){var
-b=aE(a[1]),c=S(v(b,a[2]),b),d=a[2];return M(function(b,a){return[3,b,a]},d,c)}function
-eX(a){return aE(j0(a))}function
-f1(c){var
-a=eX(c),b=aE(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-hH(a,b){return aS(a[3],a[4],b)}function
-f2(a,b){var
-c=hH(a,b);return v(eX(a),c)}function
-f3(a,b){var
-c=hH(a,b);return v(f1(a),c)}function
-oS(a,b){var
-c=hH(a,b);return v(aE(a[1]),c)}function
-hI(b,a){var
-c=f3(b,a),d=f2(b,a);return[2,[4,d,d],[4,c,c]]}function
-f4(a,d){var
-h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=oS(a,d);return[5,[2,hI(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-j1(a,b){var
-f=a[5],c=[3,f4(a,b),f],d=oS(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-d5(a,b){var
-c=j1(a,b);return cx(a[7],c)}function
-j2(b,a){var
-c=hI(b,a),d=f3(b,a),e=[4,d5(b,a),d],f=f2(b,a);return[5,[2,[4,f4(b,a),f],e],c]}function
-j3(b,a){var
-c=hI(b,a),d=f2(b,a),e=[4,d5(b,a),d],f=f3(b,a);return[5,[3,[4,f4(b,a),f],e],c]}function
-j4(a,b){var
-c=f1(a),d=S(j3(a,b),c),e=eX(a),f=S(j2(a,b),e),g=M(function(b,a){return[2,b,a]},f,d),h=S(a[5],g),i=a[3];return M(function(b,a){return[2,b,a]},i,h)}function
-j5(a,c){var
-d=j4(a,c),e=a[4],f=M(function(b,a){return[2,b,a]},c,e),g=M(function(b,a){return[3,b,a]},f,d),h=d5(a,c);return S([5,[0,b,b],[4,a[5],h]],g)}function
-d6(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
-d7(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
-j6(a,c,b){var
-d=[4,d6(a),b],e=[2,[4,d7(a),c],d],f=[4,d7(a),b];return[0,[3,[4,d6(a),c],f],e]}function
-oT(c,a){var
-b=j6(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-cy(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-oU(a,d){var
-e=v(a,a),f=cy(a,d),g=S([0,c(2,b),b],f),h=v(a,d),i=S([4,[0,c(2,b),b],h],a),j=S([3,[0,b,b],e],d),k=M(function(b,a){return[2,b,a]},j,i);return S([5,[0,b,b],[2,[0,b,b],e]],M(function(b,a){return[2,b,a]},k,g))}function
-ds(j,b,a){switch(j[0]){case
-0:return b?b[2]?a:oT(b[1],a):a;case
+j7(a){var
+b=aG(a[1]),c=T(v(b,a[2]),b),d=a[2];return O(function(b,a){return[3,b,a]},d,c)}function
+e3(a){return aG(j7(a))}function
+f7(c){var
+a=e3(c),b=aG(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+hN(a,b){return aW(a[3],a[4],b)}function
+f8(a,b){var
+c=hN(a,b);return v(e3(a),c)}function
+f9(a,b){var
+c=hN(a,b);return v(f7(a),c)}function
+o7(a,b){var
+c=hN(a,b);return v(aG(a[1]),c)}function
+hO(b,a){var
+c=f9(b,a),d=f8(b,a);return[2,[4,d,d],[4,c,c]]}function
+f_(b,d){var
+h=b[5],i=[4,[0,c(2,a),a],h],e=b[6],f=b[5],g=o7(b,d);return[5,[2,hO(b,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+j8(a,b){var
+f=a[5],c=[3,f_(a,b),f],d=o7(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+d8(a,b){var
+c=j8(a,b);return cy(a[7],c)}function
+j9(b,a){var
+c=hO(b,a),d=f9(b,a),e=[4,d8(b,a),d],f=f8(b,a);return[5,[2,[4,f_(b,a),f],e],c]}function
+j_(b,a){var
+c=hO(b,a),d=f8(b,a),e=[4,d8(b,a),d],f=f9(b,a);return[5,[3,[4,f_(b,a),f],e],c]}function
+j$(a,b){var
+c=f7(a),d=T(j_(a,b),c),e=e3(a),f=T(j9(a,b),e),g=O(function(b,a){return[2,b,a]},f,d),h=T(a[5],g),i=a[3];return O(function(b,a){return[2,b,a]},i,h)}function
+ka(b,c){var
+d=j$(b,c),e=b[4],f=O(function(b,a){return[2,b,a]},c,e),g=O(function(b,a){return[3,b,a]},f,d),h=d8(b,c);return T([5,[0,a,a],[4,b[5],h]],g)}function
+d9(b){return[5,[3,[0,a,a],[4,b,b]],[2,[0,a,a],[4,b,b]]]}function
+d_(b){return[5,[4,[0,c(2,a),a],b],[2,[0,a,a],[4,b,b]]]}function
+kb(a,c,b){var
+d=[4,d9(a),b],e=[2,[4,d_(a),c],d],f=[4,d_(a),b];return[0,[3,[4,d9(a),c],f],e]}function
+o8(c,a){var
+b=kb(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+cz(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+o9(b,d){var
+e=v(b,b),f=cz(b,d),g=T([0,c(2,a),a],f),h=v(b,d),i=T([4,[0,c(2,a),a],h],b),j=T([3,[0,a,a],e],d),k=O(function(b,a){return[2,b,a]},j,i);return T([5,[0,a,a],[2,[0,a,a],e]],O(function(b,a){return[2,b,a]},k,g))}function
+dy(j,b,a){switch(j[0]){case
+0:return b?b[2]?a:o8(b[1],a):a;case
 1:if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){if(d[2])return a;var
-g=j6(b[1],a[2],a[3]),i=g[1],h=j6(c[1],g[2],a[1]);return oT(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
+g=kb(b[1],a[2],a[3]),i=g[1],h=kb(c[1],g[2],a[1]);return o8(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
 e=b[2];if(e){var
-f=e[2];return f?f[2]?a:oU([0,b[1],e[1],f[1]],a):a}return a}return a}}function
-oV(c){var
-a=cU(c);return a?eE(a[1],[0,d,b]):a}function
-oW(a,n,k,j){if(oV(j)){var
-q=n?[3,[0,d,b],k]:k;return i(a,0,q)}var
-f=aD(a,k);if(f){var
-g=dg(a,[5,j,[0,c(2,b),b]]);if(g){var
-h=hb(a,[5,j,[0,c(2,b),b]]);if(h)var
-p=s(a,f[1],g[1]),l=[0,B(h[1],p)];else
+f=e[2];return f?f[2]?a:o9([0,b[1],e[1],f[1]],a):a}return a}return a}}function
+o_(c){var
+b=cV(c);return b?eJ(b[1],[0,e,a]):b}function
+o$(b,n,k,j){if(o_(j)){var
+q=n?[3,[0,e,a],k]:k;return i(b,0,q)}var
+f=aF(b,k);if(f){var
+g=dq(b,[5,j,[0,c(2,a),a]]);if(g){var
+h=hi(b,[5,j,[0,c(2,a),a]]);if(h)var
+p=r(b,f[1],g[1]),l=[0,B(h[1],p)];else
 var
 l=h;var
 m=l}else
 var
 m=g;var
-e=m}else
+d=m}else
 var
-e=f;if(e){var
-o=e[1];return n?D(d,o[1]):D(o[2],d)}return e}function
-d8(b,a,c){var
-d=bH(b,a[1],a[2]),e=d?oW(b,0,c,a[1]):d;return e?oW(b,1,c,a[2]):e}function
-oX(h,f,c){if(oV(c))return[0,t];var
-a=G(h,jr(f)),d=dg(a,c);if(d){var
-e=hb(a,c);if(e){var
-i=e[1],j=d[1],k=bN(a,z(L(a,b),j));return x(function(b){return m2(f,s(a,i,b))},k)}var
+d=f;if(d){var
+o=d[1];return n?D(e,o[1]):D(o[2],e)}return d}function
+d$(b,a,c){var
+d=bI(b,a[1],a[2]),e=d?o$(b,0,c,a[1]):d;return e?o$(b,1,c,a[2]):e}function
+pa(h,f,c){if(o_(c))return[0,t];var
+b=G(h,jw(f)),d=dq(b,c);if(d){var
+e=hi(b,c);if(e){var
+i=e[1],j=d[1],k=bP(b,w(J(b,a),j));return x(function(a){return m9(f,r(b,i,a))},k)}var
 g=e}else
 var
 g=d;return g}function
-cz(a){return function(b){return oX(a,d,b)}}function
-cA(d,a){var
-e=i(d,1,[2,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],a]);return e?i(d,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],a]):e}function
-dt(a){return[0,[3,[0,d,b],a],a]}function
-oY(a,c,o,n){var
-i=bH(a,[0,d,b],c),j=i?cA(a,c):i;if(j){var
-e=h(cz(a),c);if(e){var
-f=aD(a,o);if(f){var
-g=aD(a,n);if(g){var
-p=f[1],q=g[1];return D(d,B(s(a,P(a,e[1]),q),p)[1])}var
+cA(a){return function(b){return pa(a,e,b)}}function
+cB(d,b){var
+e=i(d,1,[2,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a],b]);return e?i(d,1,[3,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a],b]):e}function
+dz(b){return[0,[3,[0,e,a],b],b]}function
+pb(b,c,o,n){var
+i=bI(b,[0,e,a],c),j=i?cB(b,c):i;if(j){var
+d=h(cA(b),c);if(d){var
+f=aF(b,o);if(f){var
+g=aF(b,n);if(g){var
+p=f[1],q=g[1];return D(e,B(r(b,Q(b,d[1]),q),p)[1])}var
 k=g}else
 var
 k=f;var
 l=k}else
 var
-l=e;var
+l=d;var
 m=l}else
 var
 m=j;return m}function
-f5(d,c,a){switch(c[0]){case
-0:return a?a[2]?0:d8(d,c[1],a[1]):a;case
-1:if(a){var
-e=a[2];if(e){var
+f$(d,c,b){switch(c[0]){case
+0:return b?b[2]?0:d$(d,c[1],b[1]):b;case
+1:if(b){var
+e=b[2];if(e){var
 f=e[2];if(f){if(f[2])return 0;var
-l=d8(d,c[1],a[1]),m=l?d8(d,c[2],e[1]):l;if(m)return d8(d,c[3],f[1]);var
+l=d$(d,c[1],b[1]),m=l?d$(d,c[2],e[1]):l;if(m)return d$(d,c[3],f[1]);var
 n=m}else
 var
 n=f;var
@@ -4395,20 +4544,20 @@ var
 o=e;var
 p=o}else
 var
-p=a;return p;case
-2:if(a){var
-g=a[2];if(g){var
+p=b;return p;case
+2:if(b){var
+g=b[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],C=v([0,s,r,q],[0,s,r,q]);return oY(d,c[1],C,[0,b,b])}var
+q=h[1],r=g[1],s=b[1],C=v([0,s,r,q],[0,s,r,q]);return pb(d,c[1],C,[0,a,a])}var
 t=h}else
 var
 t=g;var
 u=t}else
 var
-u=a;return u;default:if(a){var
-i=a[2];if(i){var
+u=b;return u;default:if(b){var
+i=b[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],w=i[1],x=a[1],y=oY(d,c[1],[2,[4,x,x],[4,w,w]],[2,[0,b,b],[4,k,k]]);if(y)return d8(d,dt(c[2]),k);var
+k=j[1],w=i[1],x=b[1],y=pb(d,c[1],[2,[4,x,x],[4,w,w]],[2,[0,a,a],[4,k,k]]);if(y)return d$(d,dz(c[2]),k);var
 z=y}else
 var
 z=j;var
@@ -4417,77 +4566,77 @@ var
 A=i;var
 B=A}else
 var
-B=a;return B}}var
-j=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
-bU(b){var
-a=am(function(f,e){var
-a=aD(j,f);if(a)var
-b=a[1],c=bw(cK(b[1]),cK(b[2]));else
+B=b;return B}}var
+j=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,a)))))))));function
+bX(b){var
+a=an(function(f,d){var
+a=aF(j,f);if(a)var
+b=a[1],c=by(cL(b[1]),cL(b[2]));else
 var
-c=d;return bw(c,e)},d,b);return I(d,a)?aT(mD(a),j):d}function
-eY(a){return[0,a[1],[0,a[2],0]]}function
+c=e;return by(c,d)},e,b);return I(e,a)?aX(mJ(a),j):e}function
+e4(a){return[0,a[1],[0,a[2],0]]}function
 bk(a){var
-b=eY(a[3]),c=g(eY(a[2]),b);return g(eY(a[1]),c)}function
-hJ(a){return hE(j,a,bU(bk(a)))}function
-oZ(b,a){if(a){var
-g=oZ([0,b],a[2]),c=a[1];if(0===c[0])var
-d=c[1],e=bR([0,[0,d,d],c[2]],b);else
+b=e4(a[3]),c=g(e4(a[2]),b);return g(e4(a[1]),c)}function
+hP(a){return hK(j,a,bX(bk(a)))}function
+pc(b,a){if(a){var
+g=pc([0,b],a[2]),c=a[1];if(0===c[0])var
+d=c[1],e=bU([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-o0(c,b,a){var
-d=eF(b);return[2,[2,eF(c),d],a]}function
-hK(b,a){return b?U(a):d}function
-f6(h,c,a){if(typeof
-a!=="number")switch(a[0]){case
+pd(c,b,a){var
+d=eK(b);return[2,[2,eK(c),d],a]}function
+hQ(b,a){return b?W(a):e}function
+ga(h,c,b){if(typeof
+b!=="number")switch(b[0]){case
 4:var
-l=a[3],m=a[2];return[0,[2,m],[0,[3,m],[0,[2,l],[0,[3,l],0]]]];case
-6:return[0,[0,[5,a[3],a[2]],d],0];case
+l=b[3],m=b[2];return[0,[2,m],[0,[3,m],[0,[2,l],[0,[3,l],0]]]];case
+6:return[0,[0,[5,b[3],b[2]],e],0];case
 8:var
-s=a[2],t=a[1];return e(function(a){var
-b=hK(h,c);return[0,[5,s,a],G(hK(h,c),b)]},t);case
-9:return[0,[1,[5,a[3],a[2]],U(c)],0];case
-10:return[0,[0,a[2],d],0];case
-11:return[0,[2,a[2]],0];case
-12:return[0,[0,a[1],d],0];case
+s=b[2],t=b[1];return d(function(a){var
+b=hQ(h,c);return[0,[5,s,a],G(hQ(h,c),b)]},t);case
+9:return[0,[1,[5,b[3],b[2]],W(c)],0];case
+10:return[0,[0,b[2],e],0];case
+11:return[0,[2,b[2]],0];case
+12:return[0,[0,b[1],e],0];case
 13:var
-f=a[3],k=bU([0,f[1],[0,f[2],[0,f[3],0]]]);return[0,[2,a[4]],[0,[0,f[1],k],[0,[0,f[2],k],[0,[0,f[3],k],0]]]];case
+f=b[3],k=bX([0,f[1],[0,f[2],[0,f[3],0]]]);return[0,[2,b[4]],[0,[0,f[1],k],[0,[0,f[2],k],[0,[0,f[3],k],0]]]];case
 14:var
-n=a[2],o=a[1],u=eV(c,n),v=g(eV(c,o),u),w=e(function(a){return[0,a[1][2],a[2]]},v);return[0,[0,o0(o,n,a[3]),c],w];case
+n=b[2],o=b[1],u=e1(c,n),v=g(e1(c,o),u),w=d(function(a){return[0,a[1][2],a[2]]},v);return[0,[0,pd(o,n,b[3]),c],w];case
 15:var
-i=a[4],j=a[3],p=a[2];return h?[0,[0,[5,p,i],c],[0,[0,[5,[4,j,j],i],G(c,c)],[0,[1,[0,b,b],d],0]]]:[0,[0,[5,p,i],d],[0,[0,[5,[4,j,j],i],c],0]];case
+i=b[4],j=b[3],p=b[2];return h?[0,[0,[5,p,i],c],[0,[0,[5,[4,j,j],i],G(c,c)],[0,[1,[0,a,a],e],0]]]:[0,[0,[5,p,i],e],[0,[0,[5,[4,j,j],i],c],0]];case
 16:var
-q=a[2],r=bU([0,q,0]);return[0,[4,a[3],aT(r,c)],[0,[0,q,r],0]];case
+q=b[2],r=bX([0,q,0]);return[0,[4,b[3],aX(r,c)],[0,[0,q,r],0]];case
 17:var
-x=a[3],y=a[2];return e(function(a){return[0,[5,a,x],hK(h,c)]},y);case
+x=b[3],y=b[2];return d(function(a){return[0,[5,a,x],hQ(h,c)]},y);case
 2:case
-3:return[0,[0,a[2],c],0]}return 0}function
-du(h,c,b,e,a){if(a){var
-d=a[1],i=a[2],j=du(h,c,b,O(e,f(f6(c,b,d))),i);return g(at(h,oZ(e,f6(c,b,d)),d),j)}return a}function
-hL(b,a){var
-c=N(b,a);return e(function(a){var
+3:return[0,[0,b[2],c],0]}return 0}function
+dA(h,c,b,e,a){if(a){var
+d=a[1],i=a[2],j=dA(h,c,b,P(e,f(ga(c,b,d))),i);return g(au(h,pc(e,ga(c,b,d)),d),j)}return a}function
+hR(b,a){var
+c=M(b,a);return d(function(a){var
 b=u(a[1][2],a[2]);return[0,a[1][1],b]},c)}function
-hM(b,a){switch(a[0]){case
+hS(b,a){switch(a[0]){case
 0:var
-d=a[1];return au(b,[0,[0,d,d],a[2]]);case
+d=a[1];return av(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=au(b,[0,[0,e,e],a[2]]);return c?js(b,c[1]):c;case
-2:return dg(b,a[1]);case
-3:return hb(b,a[1]);default:var
-f=a[1],g=cA(b,f);return g?oX(b,a[2],f):g}}function
-bK(a){return 1===a?v8:v9}function
-ca(d,c,b,a){var
-e=a[1],f=ds(d,c,a[2]),g=M(function(b,a){return[2,b,a]},b,f);return M(function(b,a){return[3,b,a]},g,e)}function
-j7(c,b,a){switch(c){case
+e=a[1],c=av(b,[0,[0,e,e],a[2]]);return c?jx(b,c[1]):c;case
+2:return dq(b,a[1]);case
+3:return hi(b,a[1]);default:var
+f=a[1],g=cB(b,f);return g?pa(b,a[2],f):g}}function
+bM(a){return 1===a?ws:wt}function
+cd(d,c,b,a){var
+e=a[1],f=dy(d,c,a[2]),g=O(function(b,a){return[2,b,a]},b,f);return O(function(b,a){return[3,b,a]},g,e)}function
+kc(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-j8(h,g,d,c,f,a){var
-e=ca(d,c,f,a);return j7(h,e,S([5,[0,b,b],g],cy(ds(d,c,a[2]),e)))}function
-eZ(c,d,n,m,l){var
+kd(h,g,d,c,f,b){var
+e=cd(d,c,f,b);return kc(h,e,T([5,[0,a,a],g],cz(dy(d,c,b[2]),e)))}function
+e5(c,d,n,m,l){var
 b=d[2],a=n;for(;;){if(b){if(a){var
-f=a[1],g=b[1],h=bC(c,g[1],f[1]),i=h?bC(c,g[2],f[2]):h;if(i){var
+f=a[1],g=b[1],h=bE(c,g[1],f[1]),i=h?bE(c,g[2],f[2]):h;if(i){var
 b=b[2],a=a[2];continue}var
 j=i}else
 var
@@ -4495,15 +4644,15 @@ j=a;var
 e=j}else
 var
 e=a?0:1;var
-k=e?cY(c,d[4],m):e;return k?f5(c,d[5],l):k}}function
-bL(b,d){var
+k=e?c2(c,d[4],m):e;return k?f$(c,d[5],l):k}}function
+bN(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,O(b,c[1])]]:[0,b6(function(a){return bL(b,a)},a)]}return[0,b6(function(a){return bL(b,a)},a)]}function
-d9(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,P(b,c[1])]]:[0,b9(function(a){return bN(b,a)},a)]}return[0,b9(function(a){return bN(b,a)},a)]}function
+ea(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=J(m(e,b));return f?J(m(e,O(d,b))):f;case
+e=a[1],f=L(m(e,b));return f?L(m(e,P(d,b))):f;case
 10:return 0;case
 1:case
 2:return 1;case
@@ -4511,31 +4660,31 @@ e=a[1],f=J(m(e,b));return f?J(m(e,O(d,b))):f;case
 8:case
 9:var
 c=a[1];continue;default:var
-g=d9(d,b,a[1]);if(g){var
+g=ea(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-e0(c,b,m){var
+e6(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=d9(c,b,g),i=h?e0(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=ea(c,b,g),i=h?e6(c,b,f):h;if(i)var
 j=i;else{var
-k=e0(c,b,g);if(k)return d9(c,b,f);var
+k=e6(c,b,g);if(k)return ea(c,b,f);var
 j=k}return j;case
 7:var
-l=e0(c,b,a[1]);return l?d9(c,b,a[2]):l;case
+l=e6(c,b,a[1]);return l?ea(c,b,a[2]):l;case
 10:return 0;case
 3:case
 4:var
-e=e0(c,b,a[1]);if(e){var
+e=e6(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return d9(c,b,a[1]);default:return 1}}}function
-c0(c,e){var
+9:return ea(c,b,a[1]);default:return 1}}}function
+c4(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return J(m(a[1],c));case
+0:return L(m(a[1],c));case
 10:return 0;case
 1:case
 2:return 1;case
@@ -4543,32 +4692,32 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=c0(c,a[1]);if(d){var
+d=c4(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-hN(d,b,m){var
+hT(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=hN(d,b,a[1]);if(f){var
+f=hT(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=hN(d,b,a[1]);return g?c0(b,a[2]):g;case
+g=hT(d,b,a[1]);return g?c4(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=c0(b,i);if(j){var
-k=c0(b,h);if(k)var
+h=a[2],i=a[1],j=c4(b,i);if(j){var
+k=c4(b,h);if(k)var
 e=k;else{var
-l=a2(i,d);if(l){var
+l=a3(i,d);if(l){var
 c=h;continue}var
 e=l}}else
 var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return c0(b,c)}}}function
-hO(c,e){var
+2:return 1;default:return c4(b,c)}}}function
+hU(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return aF(a[1],c);case
+0:return aE(a[1],c);case
 10:return 0;case
 1:case
 2:return 1;case
@@ -4576,139 +4725,139 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=hO(c,a[1]);if(d){var
+d=hU(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-hP(a,h){if(a){var
-b=a[2],c=a[1],d=mP(h);if(d){var
-e=d[1],f=e[2];return e[1]?[0,c,hP(b,am(mS,f,mR(c)))]:[0,wa,hP(b,f)]}var
-g=[0,c,hP(b,0)]}else
+hV(a,h){if(a){var
+b=a[2],c=a[1],d=mW(h);if(d){var
+e=d[1],f=e[2];return e[1]?[0,c,hV(b,an(mZ,f,mY(c)))]:[0,ww,hV(b,f)]}var
+g=[0,c,hV(b,0)]}else
 var
 g=a;return g}function
-dv(b,a){return a?h(b,a[1]):a}function
-dw(c,b,a){return dv(function(b){return dv(h(c,b),a)},b)}function
-o1(b,a){switch(a[0]){case
+dB(b,a){return a?h(b,a[1]):a}function
+dC(c,b,a){return dB(function(b){return dB(h(c,b),a)},b)}function
+pe(b,a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 c=a[3],d=a[2],e=a[1];switch(b){case
 0:return e;case
 1:return d;default:return c}}}function
-o2(a){return 0===a[0]?a[1]:0}function
-o3(d,c){var
+pf(a){return 0===a[0]?a[1]:0}function
+pg(d,c){var
 b=d,a=c;for(;;){if(a){var
-e=a[2],b=o1(a[1],b),a=e;continue}return o2(b)}}function
-cB(b,a){switch(a[0]){case
+e=a[2],b=pe(a[1],b),a=e;continue}return pf(b)}}function
+cC(b,a){switch(a[0]){case
 0:return[0,h(b,a[1])];case
-1:return[1,cB(b,a[1])];default:var
-c=cB(b,a[3]),d=cB(b,a[2]);return[2,cB(b,a[1]),d,c]}}function
-bD(b,c,a){switch(c[0]){case
-0:return cB(h(b,c[1]),a);case
+1:return[1,cC(b,a[1])];default:var
+c=cC(b,a[3]),d=cC(b,a[2]);return[2,cC(b,a[1]),d,c]}}function
+bF(b,c,a){switch(c[0]){case
+0:return cC(h(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-k=a[1];return[1,cB(function(a){return at(b,a,k)},d)];case
-1:return[1,bD(b,d,a[1])];default:var
-l=bD(b,d,a[3]),m=bD(b,d,a[2]);return[2,bD(b,d,a[1]),m,l]}default:var
+k=a[1];return[1,cC(function(a){return au(b,a,k)},d)];case
+1:return[1,bF(b,d,a[1])];default:var
+l=bF(b,d,a[3]),m=bF(b,d,a[2]);return[2,bF(b,d,a[1]),m,l]}default:var
 e=c[3],f=c[2],g=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return at(b,a,n)},i=function(a){return cB(o,a)},p=i(e),q=i(f);return[2,i(g),q,p];case
+n=a[1],o=function(a){return au(b,a,n)},i=function(a){return cC(o,a)},p=i(e),q=i(f);return[2,i(g),q,p];case
 1:var
-j=a[1],r=bD(b,e,j),s=bD(b,f,j);return[2,bD(b,g,j),s,r];default:var
-t=bD(b,e,a[3]),u=bD(b,f,a[2]);return[2,bD(b,g,a[1]),u,t]}}}function
-j9(c,f,a){if(a)var
-d=a[1],b=function(i){var
-a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(i){case
+j=a[1],r=bF(b,e,j),s=bF(b,f,j);return[2,bF(b,g,j),s,r];default:var
+t=bF(b,e,a[3]),u=bF(b,f,a[2]);return[2,bF(b,g,a[1]),u,t]}}}function
+ke(c,f,a){if(a)var
+e=a[1],b=function(i){var
+a=[0,e[1],e[1]],b=[0,e[2],e[2]];switch(i){case
 0:var
-e=[0,a,P(c,a)];break;case
+d=[0,a,Q(c,a)];break;case
 1:var
-g=s(c,a,b),e=[0,an(z(a,b)),g];break;default:var
-e=[0,b,P(c,b)]}return[0,[0,h(f,e)]]},i=j9(c,f,a[2]),j=e(function(a){return[1,a]},i),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
+g=r(c,a,b),d=[0,aj(w(a,b)),g];break;default:var
+d=[0,b,Q(c,b)]}return[0,[0,h(f,d)]]},i=ke(c,f,a[2]),j=d(function(a){return[1,a]},i),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
 var
 g=a;return g}function
-j_(b,y,c,a){var
-d=j9(b,aK,a),A=g(j9(b,as,a),d);return cR(wc,function(a){switch(a[0]){case
+kf(b,z,c,a){var
+d=ke(b,aH,a),A=g(ke(b,ao,a),d);return cS(wy,function(a){switch(a[0]){case
 0:return q(a[1],A,[0,[0,t]]);case
-1:return[0,[0,q(a[1],y,t)]];case
-2:return[0,[0,L(b,a[1])]];case
+1:return[0,[0,q(a[1],z,t)]];case
+2:return[0,[0,J(b,a[1])]];case
 3:var
-c=a[2],d=a[1],e=function(b,a){return[0,z(b,a)]};return bD(function(a,b){return dw(e,a,b)},d,c);case
+c=a[2],d=a[1],e=function(b,a){return[0,w(b,a)]};return bF(function(a,b){return dC(e,a,b)},d,c);case
 4:var
-f=a[2],g=a[1],h=function(b,a){return[0,B(b,a)]};return bD(function(a,b){return dw(h,a,b)},g,f);case
+f=a[2],g=a[1],h=function(b,a){return[0,B(b,a)]};return bF(function(a,b){return dC(h,a,b)},g,f);case
 5:var
-i=a[1],j=function(a){return[0,Q(a)]};return cB(function(a){return dv(j,a)},i);case
+i=a[1],j=function(a){return[0,N(a)]};return cC(function(a){return dB(j,a)},i);case
 6:var
-k=a[2],l=a[1],m=function(c,a){return[0,s(b,c,a)]};return bD(function(a,b){return dw(m,a,b)},l,k);case
+k=a[2],l=a[1],m=function(c,a){return[0,r(b,c,a)]};return bF(function(a,b){return dC(m,a,b)},l,k);case
 7:var
 n=a[2],o=a[1],p=function(c,a){var
-d=bN(b,a);return x(function(a){return s(b,c,a)},d)};return bD(function(a,b){return dw(p,a,b)},o,n);case
+d=bP(b,a);return x(function(a){return r(b,c,a)},d)};return bF(function(a,b){return dC(p,a,b)},o,n);case
 8:var
-r=a[1],u=function(a){return[0,P(b,a)]};return cB(function(a){return dv(u,a)},r);case
+s=a[1],u=function(a){return[0,Q(b,a)]};return cC(function(a){return dB(u,a)},s);case
 9:var
-v=a[1],w=function(a){return cn(b,a)};return cB(function(a){return dv(w,a)},v);default:return wb}},c)}function
-hQ(a){if(a){var
+v=a[1],y=function(a){return cq(b,a)};return cC(function(a){return dB(y,a)},v);default:return wx}},c)}function
+hW(a){if(a){var
 b=a[1];if(b)var
-c=hQ(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=hW(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return wd}function
-e1(a){if(a){var
-g=a[1],b=g[2],c=hQ(g[1]);if(c)if(b){var
-h=b[1],e=e1(a[2]);if(e)var
-i=I(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
+d=b;return d}return wz}function
+e7(a){if(a){var
+g=a[1],b=g[2],c=hW(g[1]);if(c)if(b){var
+h=b[1],d=e7(a[2]);if(d)var
+i=I(e,h[1]),j=i?[0,[0,[0,c[1],h],d[1]]]:i;else
 var
-j=e;var
+j=d;var
 f=j}else
 var
 f=b;else
 var
-f=c;return f}return we}function
-e2(b,a){var
+f=c;return f}return wA}function
+e8(b,a){var
 c=a[3],d=x(function(a){var
-c=a[2],d=a[1][2];return[0,[0,h(b,a[1][1]),d],c]},c),e=h(b,a[2]),f=a[1];return[0,h(aB(b),f),e,d]}function
-j$(c,g,f,b,a,e){if(b){var
+c=a[2],d=a[1][2];return[0,[0,h(b,a[1][1]),d],c]},c),e=h(b,a[2]),f=a[1];return[0,h(aC(b),f),e,d]}function
+kg(c,g,f,b,a,e){if(b){var
 h=b[1],l=b[2],d=function(b,a){var
-d=gx(c,fA,fA,function(a){return o1(b,a)},e);return j$(c,g,aU(f),l,a,d)},i=d(0,aT(a,h));if(i){var
+d=gD(c,fE,fE,function(a){return pe(b,a)},e);return kg(c,g,aY(f),l,a,d)},i=d(0,aX(a,h));if(i){var
 j=d(2,G(a,h));if(j)return f?1:d(1,a);var
 k=j}else
 var
-k=i;return k}return at(g,a,gx(c,fA,fA,o2,e))}function
-ka(e,c,b,a){var
-f=$(d,b);function
-g(b){return a}return function(a){return j$(e,g,c,f,d,a)}}function
-dx(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return x(function(a){return aH(f,e,a)},d)}return[0,t]}function
-o4(f,e,k,j,i,a){var
-b=e1(a[1]);if(b){var
+k=i;return k}return au(g,a,gD(c,fE,fE,pf,e))}function
+kh(d,c,b,a){var
+f=X(e,b);function
+g(b){return a}return function(a){return kg(d,g,c,f,e,a)}}function
+dD(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return x(function(a){return aB(f,e,a)},d)}return[0,t]}function
+ph(f,e,k,j,i,a){var
+b=e7(a[1]);if(b){var
 c=a[2];if(c){var
-d=dx(a[3]);if(d){var
-l=d[1],m=$([0,B(Q(s(f,i,c[1])),l),0],e);return aX(f,e,hd(k,j,b[1],m))}var
+d=dD(a[3]);if(d){var
+l=d[1],m=X([0,B(N(r(f,i,c[1])),l),0],e);return aU(f,e,hj(k,j,b[1],m))}var
 g=d}else
 var
 g=c;var
 h=g}else
 var
 h=b;return h}function
-o5(i,d,h,g,c){var
-a=e1(c[1]);if(a){var
-b=dx(c[3]);if(b){var
-j=$([0,B(t,b[1]),0],d),k=a[1];return aX(i,d,hd(h,g,e(function(a){return[0,a[1],t]},k),j))}var
+pi(i,e,h,g,c){var
+a=e7(c[1]);if(a){var
+b=dD(c[3]);if(b){var
+j=X([0,B(t,b[1]),0],e),k=a[1];return aU(i,e,hj(h,g,d(function(a){return[0,a[1],t]},k),j))}var
 f=b}else
 var
 f=a;return f}function
-o6(a,c,D,i){var
-j=e1(i[1]);if(j){var
+pj(a,c,D,i){var
+j=e7(i[1]);if(j){var
 k=i[2];if(k){var
-l=dx(i[3]);if(l){var
-F=l[1],e=B(s(a,D,k[1]),F),b=j[1];if(b){var
+l=dD(i[3]);if(l){var
+F=l[1],d=B(r(a,D,k[1]),F),b=j[1];if(b){var
 n=b[1],o=n[2];if(b[2]){var
-g=he(a,b,$([0,e,0],c));if(g){var
-p=g[1],q=m(f(p),c);if(q)return eK(a,p);var
-r=q}else
+g=hk(a,b,X([0,d,0],c));if(g){var
+p=g[1],q=m(f(p),c);if(q)return eQ(a,p);var
+s=q}else
 var
-r=g;return r}var
-t=I(d,e[1]),u=t?I(d,o[1]):t;if(u){var
-A=E(e[1],o[1]),C=n[1];return I(am(function(a,b){var
-c=bO(a);return G(E(bO(a),c),b)},d,C),A)}return u}var
-h=he(a,b,$([0,e,0],c));if(h){var
-v=h[1],w=m(f(v),c);if(w)return eK(a,v);var
+s=g;return s}var
+t=I(e,d[1]),u=t?I(e,o[1]):t;if(u){var
+A=E(d[1],o[1]),C=n[1];return I(an(function(a,b){var
+c=bQ(a);return G(E(bQ(a),c),b)},e,C),A)}return u}var
+h=hk(a,b,X([0,d,0],c));if(h){var
+v=h[1],w=m(f(v),c);if(w)return eQ(a,v);var
 x=w}else
 var
 x=h;return x}var
@@ -4718,231 +4867,231 @@ y=k;var
 z=y}else
 var
 z=j;return z}function
-wf(c){var
+wB(c){var
 a=c[2];if(a){var
-b=dx(c[3]);if(b)return D(d,B(a[1],b[1])[1]);var
-e=b}else
+b=dD(c[3]);if(b)return D(e,B(a[1],b[1])[1]);var
+d=b}else
 var
-e=a;return e}function
-kb(a){return y(function(a){return g(a[1],[0,a[2],0])},a)}function
-o7(a,c,b){var
-e=q(b,c,n(d)),f=aA(0,a);return l(function(b){return e0(a,b,e)},f)}function
-f7(a){var
-c=X(a);return C(n(b),c)}function
-hR(i,g){var
-h=f7(g),j=X(g),e=A(n(b),j),f=u(n(c(2,b)),g),a=n(d);return i?i[1]?[0,[0,e,bB(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bB(f),a,e]]:[0,[0,h,a,a],[0,a,e,bB(f)],[0,a,f,e]]}function
-f8(b,a){var
+d=a;return d}function
+ki(a){return y(function(a){return g(a[1],[0,a[2],0])},a)}function
+pk(a,c,b){var
+d=q(b,c,n(e)),f=ax(0,a);return k(function(b){return e6(a,b,d)},f)}function
+gb(b){var
+c=_(b);return C(n(a),c)}function
+hX(i,g){var
+h=gb(g),j=_(g),d=A(n(a),j),f=u(n(c(2,a)),g),b=n(e);return i?i[1]?[0,[0,d,bC(f),b],[0,f,d,b],[0,b,b,h]]:[0,[0,d,b,f],[0,b,h,b],[0,bC(f),b,d]]:[0,[0,h,b,b],[0,b,d,bC(f)],[0,b,f,d]]}function
+gc(b,a){var
 c=ac(b[3],a),d=ac(b[2],a);return[0,ac(b[1],a),d,c]}function
-o8(b,a){function
+pl(b,a){function
 c(b){var
 c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]}function
 d(a){var
 b=ac(a,c(function(a){return a[3]})),d=ac(a,c(function(a){return a[2]}));return[0,ac(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-o9(v,t){function
-a(a){return[0,[0,O(t,a)]]}switch(v[0]){case
+pm(v,t){function
+b(a){return[0,[0,P(t,a)]]}switch(v[0]){case
 0:var
-w=f7(a(0));return[0,hR(wg,a(0)),w];case
+w=gb(b(0));return[0,hX(wC,b(0)),w];case
 1:var
-x=f7(a(0)),y=u(f7(a(wh)),x),z=u(f7(a(wi)),y),B=hR(0,a(0)),D=o8(hR(wk,a(wj)),B);return[0,o8(hR(wm,a(wl)),D),z];default:var
-E=a(wn),F=a(wo),g=[0,a(0),F,E],G=ac(g,g),H=C(n(b),G),j=ac(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
-d=X(a),e=u(n(c(2,b)),d);return C(A(n(b),j),e)},h=function(f,e,d,a){var
-g=at(f,u(e,d),a);return u(n(c(2,b)),g)},k=i(f),l=h(C,e,f,d),m=[0,h(A,d,f,e),l,k],o=h(A,e,f,d),p=i(e),q=[0,h(C,d,e,f),p,o],r=h(C,d,f,e),s=h(A,d,e,f);return[0,[0,[0,i(d),s,r],q,m],H]}}function
-o_(a){return 1<a[0]?[0,a[1],0]:0}function
-hS(a){switch(a[0]){case
+x=gb(b(0)),y=u(gb(b(wD)),x),z=u(gb(b(wE)),y),B=hX(0,b(0)),D=pl(hX(wG,b(wF)),B);return[0,pl(hX(wI,b(wH)),D),z];default:var
+E=b(wJ),F=b(wK),g=[0,b(0),F,E],G=ac(g,g),H=C(n(a),G),j=ac(g,g),d=g[1],e=g[2],f=g[3],i=function(b){var
+d=_(b),e=u(n(c(2,a)),d);return C(A(n(a),j),e)},h=function(f,e,d,b){var
+g=au(f,u(e,d),b);return u(n(c(2,a)),g)},k=i(f),l=h(C,e,f,d),m=[0,h(A,d,f,e),l,k],o=h(A,e,f,d),p=i(e),q=[0,h(C,d,e,f),p,o],r=h(C,d,f,e),s=h(A,d,e,f);return[0,[0,[0,i(d),s,r],q,m],H]}}function
+pn(a){return 1<a[0]?[0,a[1],0]:0}function
+hY(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,dt(a[1]),0];default:var
-b=[0,dt(a[2]),0];return[0,dt(a[1]),b]}}function
-e3(a){return[0,[0,a[1]],[0,a[2]]]}function
-o$(a){switch(a[0]){case
-0:return[0,e3(a[1]),0];case
+2:return[0,dz(a[1]),0];default:var
+b=[0,dz(a[2]),0];return[0,dz(a[1]),b]}}function
+e9(a){return[0,[0,a[1]],[0,a[2]]]}function
+po(a){switch(a[0]){case
+0:return[0,e9(a[1]),0];case
 1:var
-f=[0,e3(a[3]),0],g=[0,e3(a[2]),f];return[0,e3(a[1]),g];case
+f=[0,e9(a[3]),0],g=[0,e9(a[2]),f];return[0,e9(a[1]),g];case
 2:var
-b=e3(dt(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
-c=a[2],d=a[1],e=[0,[1,dt(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,e3(dt(c)),0]]]}}function
-pa(a,c){if(0===c[0]){var
-g=c[1];return h(cz(a),g)}var
-i=c[1],d=h(cz(a),i);if(d){var
-j=c[2],e=h(cz(a),j);if(e){var
-k=P(a,e[1]),l=cn(a,z(L(a,b),k)),m=d[1];return x(function(b){return s(a,m,b)},l)}var
+b=e9(dz(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
+c=a[2],d=a[1],e=[0,[1,dz(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,e9(dz(c)),0]]]}}function
+pp(b,c){if(0===c[0]){var
+g=c[1];return h(cA(b),g)}var
+i=c[1],d=h(cA(b),i);if(d){var
+j=c[2],e=h(cA(b),j);if(e){var
+k=Q(b,e[1]),l=cq(b,w(J(b,a),k)),m=d[1];return x(function(a){return r(b,m,a)},l)}var
 f=e}else
 var
 f=d;return f}function
-pb(d,c){var
-a=pa(d,c[1]);if(a)var
-b=pa(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+pq(d,c){var
+a=pp(d,c[1]);if(a)var
+b=pp(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-kc(a,e,c){var
+kj(a,d,c){var
 b=c[1];if(1===b[0]){var
-f=b[1];if(aF(f,a))return c;var
-g=n(d);return q(dN(f,a),e,g)}return[0,b6(function(b){return kc(a,e,b)},b)]}function
-hT(g,a,m,f,c){var
-h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=hz(h,c),j=bP(f),b=e(function(b){return kc(a,j,b)},i),k=q(wt,b,n(d)),l=q(wu,b,n(d));return[0,q(0,b,n(d)),l,k]}function
-bt(b,a){var
+f=b[1];if(aE(f,a))return c;var
+g=n(e);return q(dO(f,a),d,g)}return[0,b9(function(b){return kj(a,d,b)},b)]}function
+hZ(g,a,m,f,c){var
+h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=hF(h,c),j=bS(f),b=d(function(b){return kj(a,j,b)},i),k=q(wP,b,n(e)),l=q(wQ,b,n(e));return[0,q(0,b,n(e)),l,k]}function
+bv(b,a){var
 c=u(b[2],a[1]),d=A(u(b[1],a[2]),c),e=u(b[1],a[3]),f=A(u(b[3],a[1]),e),g=u(b[3],a[2]);return[0,A(u(b[2],a[3]),g),f,d]}function
-d_(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
-kd(c){function
-a(a){var
-e=m(c,a)?b:d;return n(e)}var
-e=a(wv),f=a(ww);return[0,a(0),f,e]}function
-pc(e,d,c){function
-b(a){return[0,kd(a),0]}function
-a(a){return[0,bq(bt(kd(a),d),c),[0,a]]}switch(e){case
+eb(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
+kk(c){function
+b(b){var
+d=m(c,b)?a:e;return n(d)}var
+d=b(wR),f=b(wS);return[0,b(0),f,d]}function
+pr(e,d,c){function
+b(a){return[0,kk(a),0]}function
+a(a){return[0,bs(bv(kk(a),d),c),[0,a]]}switch(e){case
 0:var
-f=[0,a(wx),0],g=[0,b(wy),f];return[0,b(0),g];case
+f=[0,a(wT),0],g=[0,b(wU),f];return[0,b(0),g];case
 1:var
-h=[0,a(wz),0],i=[0,a(wA),h],j=[0,a(0),i],k=[0,b(wB),j],l=[0,b(wC),k];return[0,b(0),l];default:var
-m=[0,a(wD),0],n=[0,a(wE),m];return[0,a(0),n]}}function
-pd(a,g,f,x,o,l){var
+h=[0,a(wV),0],i=[0,a(wW),h],j=[0,a(0),i],k=[0,b(wX),j],l=[0,b(wY),k];return[0,b(0),l];default:var
+m=[0,a(wZ),0],n=[0,a(w0),m];return[0,a(0),n]}}function
+ps(b,g,f,x,o,l){var
 h=l[1];function
-e(c,b){var
-e=h[3],f=d_(b,a[3]),g=u(C(c[3],f),e),i=h[2],j=d_(b,a[2]),k=u(C(c[2],j),i),l=h[1],m=d_(b,a[1]),o=u(C(c[1],m),l);return C(C(C(n(d),o),k),g)}var
-t=e(a[3],wF),v=e(a[2],wG),w=[0,e(a[1],0),v,t],i=ac(o[1],w),p=o[2];if(p){var
+d(c,a){var
+d=h[3],f=eb(a,b[3]),g=u(C(c[3],f),d),i=h[2],j=eb(a,b[2]),k=u(C(c[2],j),i),l=h[1],m=eb(a,b[1]),o=u(C(c[1],m),l);return C(C(C(n(e),o),k),g)}var
+t=d(b[3],w1),v=d(b[2],w2),w=[0,d(b[1],0),v,t],i=ac(o[1],w),p=o[2];if(p){var
 j=p[1],q=l[2];if(q){var
-k=q[1],y=d_(j,f),z=u(d_(k,g),y),B=d_(k,f),r=C(u(d_(j,g),B),z),D=X(x);if(m(j,k))var
-E=ac(g,f),s=A(r,u(n(c(2,b)),E));else
+k=q[1],y=eb(j,f),z=u(eb(k,g),y),B=eb(k,f),r=C(u(eb(j,g),B),z),D=_(x);if(m(j,k))var
+E=ac(g,f),s=A(r,u(n(c(2,a)),E));else
 var
-s=r;return C(i,aj(s,D))}return i}return i}function
-ke(b,a){if(a)var
-d=ke(b,a[2]),c=[0,e(h(b,a[1]),a),d];else
+s=r;return C(i,ak(s,D))}return i}return i}function
+kl(b,a){if(a)var
+e=kl(b,a[2]),c=[0,d(h(b,a[1]),a),e];else
 var
 c=a;return c}function
-f9(c,b,a){switch(c){case
+gd(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-pe(a){if(a){var
-f=a[1],b=f[2],c=hQ(f[1]);if(c)if(b)var
-d=pe(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
+pt(a){if(a){var
+f=a[1],b=f[2],c=hW(f[1]);if(c)if(b)var
+d=pt(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
 var
 e=b;else
 var
-e=c;return e}return wH}function
-pf(c,b,a){var
-d=N(b,a);return am(function(a,d){var
-b=bO(a[2]);return z(s(c,a[1],[0,b,b]),d)},t,d)}function
-pg(a,h,e,f,d){if(e)if(d)var
-i=d[1],o=pg(a,h,e[2],f,d[2]),p=i[2],q=az(h,i[1]),c=e[1],j=an(s(a,c[3],f)),k=c[3],l=z(an(co(p,L(a,b),k)),j),m=s(a,c[2],l),n=s(a,c[1],f),g=[0,b5(z(z(an(pf(a,c[4],q)),n),m)),o];else
+e=c;return e}return w3}function
+pu(c,b,a){var
+d=M(b,a);return an(function(a,d){var
+b=bQ(a[2]);return w(r(c,a[1],[0,b,b]),d)},t,d)}function
+pv(b,h,e,f,d){if(e)if(d)var
+i=d[1],o=pv(b,h,e[2],f,d[2]),p=i[2],q=aw(h,i[1]),c=e[1],j=aj(r(b,c[3],f)),k=c[3],l=w(aj(b8(p,J(b,a),k)),j),m=r(b,c[2],l),n=r(b,c[1],f),g=[0,bR(w(w(aj(pu(b,c[4],q)),n),m)),o];else
 var
 g=d;else
 var
 g=e;return g}function
-wJ(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
-ph(b,a){return ad(e(function(a){return q(a,b,0)},a))}function
-bV(a){switch(a){case
-0:return wN;case
-1:return wO;default:return 0}}function
-d$(a){switch(a){case
-0:return[0,wQ,wP,n(d)];case
-1:return dX;default:var
-b=n(d),c=n(d);return[0,n(d),c,b]}}function
-hU(c,b,a){return bq(f8(c,a),b)}function
-pi(b,a){if(b)return[0,[0,[0,a]],[0,[0,[0,a]]],[0,[0,[0,[0,a]]]]];var
-c=n(d);return[0,n(d),c,[0,[0,a]]]}function
-kf(a){var
-d=ac(a,a),e=C(n(b),d);return aj(n(c(2,b)),e)}function
-pj(a,b){var
-c=bt(a,b),d=ah(C,c,bt(a,c));return ah(C,b,a_(kf(a),d))}function
-pk(h,g,f,e,d,c){var
-b=pj(c,hU(g,f,d)),a=ah(A,ah(C,d$(h),b),e);return[0,[0,b,a],aO(ac(a,a))]}function
-ap(a){return typeof
-a==="number"?a?wR:wS:bK(a[1])}function
-kg(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:j7(b[1],a,c)}function
-ea(a){if(0===a[0]){var
-c=a[1];switch(c[0]){case
+w5(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
+pw(b,a){return ad(d(function(a){return q(a,b,0)},a))}function
+bY(a){switch(a){case
+0:return w9;case
+1:return w_;default:return 0}}function
+ec(a){switch(a){case
+0:return[0,xa,w$,n(e)];case
+1:return dY;default:var
+b=n(e),c=n(e);return[0,n(e),c,b]}}function
+h0(c,b,a){return bs(gc(c,a),b)}function
+px(b,a){if(b)return[0,[0,[0,a]],[0,[0,[0,a]]],[0,[0,[0,[0,a]]]]];var
+c=n(e);return[0,n(e),c,[0,[0,a]]]}function
+km(b){var
+d=ac(b,b),e=C(n(a),d);return ak(n(c(2,a)),e)}function
+py(a,b){var
+c=bv(a,b),d=ah(C,c,bv(a,c));return ah(C,b,a$(km(a),d))}function
+pz(h,g,f,e,d,c){var
+b=py(c,h0(g,f,d)),a=ah(A,ah(C,ec(h),b),e);return[0,[0,b,a],aQ(ac(a,a))]}function
+as(a){return typeof
+a==="number"?a?xb:xc:bM(a[1])}function
+kn(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:kc(b[1],a,c)}function
+ed(b){if(0===b[0]){var
+c=b[1];switch(c[0]){case
 0:return c[3];case
-1:return c[2];default:return[0,[0,d,b],[0,d,b],[0,d,b]]}}return a[1][4]}function
-eb(b,c,a){return b?ds(b[1],c,a):a}function
+1:return c[2];default:return[0,[0,e,a],[0,e,a],[0,e,a]]}}return b[1][4]}function
+ee(b,c,a){return b?dy(b[1],c,a):a}function
 bl(d,c,b,a){var
-e=ea(a),f=eb(d,c,ea(a)),g=M(function(b,a){return[2,b,a]},b,f);return M(function(b,a){return[3,b,a]},g,e)}function
-pl(h,g,d,c,f,a){if(0===a[0])var
-i=bl(d,c,f,a),e=b$(a[1],i);else
+e=ed(a),f=ee(d,c,ed(a)),g=O(function(b,a){return[2,b,a]},b,f);return O(function(b,a){return[3,b,a]},g,e)}function
+pA(h,g,d,c,f,b){if(0===b[0])var
+i=bl(d,c,f,b),e=cc(b[1],i);else
 var
-j=bl(d,c,f,a),e=j5(a[1],j);return kg(h,e,S([5,[0,b,b],g],cy(eb(d,c,ea(a)),e)))}function
-e4(d,c,b,a){if(0===a[0]){var
-f=bl(d,c,b,a);return[0,cZ(a[1],f)]}var
-e=a[1],g=j3(e,bl(d,c,b,a));return[1,j2(e,bl(d,c,b,a)),g]}function
-kh(b,a){var
+j=bl(d,c,f,b),e=ka(b[1],j);return kn(h,e,T([5,[0,a,a],g],cz(ee(d,c,ed(b)),e)))}function
+e_(d,c,b,a){if(0===a[0]){var
+f=bl(d,c,b,a);return[0,c3(a[1],f)]}var
+e=a[1],g=j_(e,bl(d,c,b,a));return[1,j9(e,bl(d,c,b,a)),g]}function
+ko(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-ki(e,d,c,a){if(0===a[0]){var
-f=bl(e,d,c,a),b=jV(a[1],f),g=b?[0,b[1],0]:b;return g}var
-h=bl(e,d,c,a);return[0,j1(a[1],h),0]}function
-pm(b,f,d){if(0===f[0])return 0===d[0]?ou(b,f[1],d[1]):0;if(0===d[0])return 0;var
-a=d[1],c=f[1],g=bC(b,c[1],a[1]),h=g?bC(b,c[2],a[2]):g,j=h?bC(b,c[3],a[3]):h,k=j?bC(b,c[4],a[4]):j,l=k?dq(b,c[5],a[5]):k,m=l?dq(b,c[6],a[6]):l,n=m?i(b,1,a[5]):m,o=n?i(b,1,a[6]):n,p=o?i(b,1,v(a[1],a[1])):o;if(p)var
-q=j0(a),e=i(b,1,v(j0(a),q));else
+kp(e,d,c,a){if(0===a[0]){var
+f=bl(e,d,c,a),b=j2(a[1],f),g=b?[0,b[1],0]:b;return g}var
+h=bl(e,d,c,a);return[0,j8(a[1],h),0]}function
+pB(b,f,d){if(0===f[0])return 0===d[0]?oJ(b,f[1],d[1]):0;if(0===d[0])return 0;var
+a=d[1],c=f[1],g=bE(b,c[1],a[1]),h=g?bE(b,c[2],a[2]):g,j=h?bE(b,c[3],a[3]):h,k=j?bE(b,c[4],a[4]):j,l=k?dw(b,c[5],a[5]):k,m=l?dw(b,c[6],a[6]):l,n=m?i(b,1,a[5]):m,o=n?i(b,1,a[6]):n,p=o?i(b,1,v(a[1],a[1])):o;if(p)var
+q=j7(a),e=i(b,1,v(j7(a),q));else
 var
-e=p;return e?cM(c[7],a[7]):e}function
-e5(g,f,e){var
+e=p;return e?cN(c[7],a[7]):e}function
+e$(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=pm(g,b[1],a[1]);if(c){var
+c=pB(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-hV(c,b,g,a){var
-d=cY(c,b[4],g);if(d){var
-e=b[5];if(e)return f5(c,e[1],a);if(a)return 0;var
+h1(c,b,g,a){var
+d=c2(c,b[4],g);if(d){var
+e=b[5];if(e)return f$(c,e[1],a);if(a)return 0;var
 f=1}else
 var
 f=d;return f}function
-f_(a){return typeof
-a==="number"?wT:2<=a[1]?wU:wV}function
-pn(v,m,l){if(l){var
-a=l[1],e=function(c,a){return i(v,1,[3,[0,a,b],c])},g=function(a){return[3,a[2],a[1]]};switch(a[0]){case
+ge(a){return typeof
+a==="number"?xd:2<=a[1]?xe:xf}function
+pC(v,m,l){if(l){var
+b=l[1],d=function(c,b){return i(v,1,[3,[0,b,a],c])},g=function(a){return[3,a[2],a[1]]};switch(b[0]){case
 0:var
-n=c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),f=e(g(a[1]),n);break;case
+n=c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),f=d(g(b[1]),n);break;case
 1:var
-j=a[2],o=c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),k=e([3,[0,d,b],j[1]],o);if(k)var
-p=c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),h=e(j[2],p);else
+j=b[2],o=c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a))))))))),k=d([3,[0,e,a],j[1]],o);if(k)var
+p=c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a))))))))),h=d(j[2],p);else
 var
 h=k;if(h)var
-q=c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),s=g(a[3]),f=e([2,g(a[1]),s],q);else
+q=c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),r=g(b[3]),f=d([2,g(b[1]),r],q);else
 var
 f=h;break;case
 2:var
-t=c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),f=e(a[1],t);break;default:var
-u=c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),f=e([2,a[1],a[2]],u)}return f?typeof
-m==="number"?0:m[1]?1:0===a[0]?1:0:f}return 1}function
-cb(e,j){var
-a=j[1];switch(a[0]){case
+t=c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a))))))))),f=d(b[1],t);break;default:var
+u=c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a))))))))),f=d([2,b[1],b[2]],u)}return f?typeof
+m==="number"?0:m[1]?1:0===b[0]?1:0:f}return 1}function
+ce(d,j){var
+b=j[1];switch(b[0]){case
 1:var
-k=m(a[1],e)?b:d;return n(k);case
+k=m(b[1],d)?a:e;return n(k);case
 3:var
-l=cb(e,a[2]);return C(cb(e,a[1]),l);case
+l=ce(d,b[2]);return C(ce(d,b[1]),l);case
 4:var
-o=cb(e,a[2]);return A(cb(e,a[1]),o);case
-5:return bB(cb(e,a[1]));case
+o=ce(d,b[2]);return A(ce(d,b[1]),o);case
+5:return bC(ce(d,b[1]));case
 6:var
-g=a[2],h=a[1],p=u(h,cb(e,g));return C(u(g,cb(e,h)),p);case
+g=b[2],h=b[1],p=u(h,ce(d,g));return C(u(g,ce(d,h)),p);case
 7:var
-f=cb(e,a[1]);return bf(d,f)?f:aj(f,a[2]);case
+f=ce(d,b[1]);return bf(e,f)?f:ak(f,b[2]);case
 8:var
-i=a[1],q=cb(e,i);return u(u(n(c(2,b)),i),q);default:return n(d)}}function
-hW(c,b,k){var
-e=k;for(;;){var
-a=e[1];switch(a[0]){case
+i=b[1],q=ce(d,i);return u(u(n(c(2,a)),i),q);default:return n(e)}}function
+h2(c,b,k){var
+d=k;for(;;){var
+a=d[1];switch(a[0]){case
 7:var
-g=hW(c,b,a[1]);if(g){var
+g=h2(c,b,a[1]);if(g){var
 h=a[2][1];if(1===h[0]){var
-i=h[1],j=I(d,q(i,c,t)[1]);return j?J(ag(function(a){return m(i,a)},b)):j}return 0}return g;case
+i=h[1],j=I(e,q(i,c,t)[1]);return j?L(ag(function(a){return m(i,a)},b)):j}return 0}return g;case
 5:case
 8:var
-e=a[1];continue;case
+d=a[1];continue;case
 9:case
 10:return 0;case
-0:case
-1:case
-2:return 1;default:var
-f=hW(c,b,a[1]);if(f){var
-e=a[2];continue}return f}}}function
-po(d){var
+3:case
+4:case
+6:var
+f=h2(c,b,a[1]);if(f){var
+d=a[2];continue}return f;default:return 1}}}function
+pD(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 0:case
@@ -4953,97 +5102,97 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-c=po(a[1]);if(c){var
+c=pD(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-pp(c,b,a){var
-d=e(b,a[2]);return[0,h(c,a[1]),d]}function
-kj(b,a,c){return e(function(c){var
-d=pp(b,a,c[2]),f=c[1];return[0,e(function(c){return pp(b,a,c)},f),d]},c)}function
-pq(b,a){return x(function(a){var
+pE(c,b,a){var
+e=d(b,a[2]);return[0,h(c,a[1]),e]}function
+kq(b,a,c){return d(function(c){var
+e=pE(b,a,c[2]),f=c[1];return[0,d(function(c){return pE(b,a,c)},f),e]},c)}function
+pF(b,a){return x(function(a){var
 c=a[2],d=a[1][2];return[0,[0,h(b,a[1][1]),d],c]},a)}function
-wW(a,b){var
-c=pq(a,b[3]),d=h(a,b[2]);return[0,kj(a,a,b[1]),d,c]}function
-pr(c){var
+xg(a,b){var
+c=pF(a,b[3]),d=h(a,b[2]);return[0,kq(a,a,b[1]),d,c]}function
+pG(c){var
 a=c[1];if(a){var
-b=hQ(c[2]);if(b)var
-g=e(_,b[1]),d=[0,[0,_(a[1]),g]];else
+b=hW(c[2]);if(b)var
+g=d(R,b[1]),e=[0,[0,R(a[1]),g]];else
 var
-d=b;var
-f=d}else
+e=b;var
+f=e}else
 var
 f=a;return f}function
-wX(c){var
-a=ad(e(pr,c[1]));if(a)var
-b=pr(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
+xh(c){var
+a=ad(d(pG,c[1]));if(a)var
+b=pG(c[2]),f=b?[0,[0,a[1],b[1]]]:b,e=f;else
 var
-d=a;return d}function
-wY(a){return J(fL([0,a[2],a[1]]))}function
-kk(a){return[0,a[1],a[2]]}function
-ps(b,c,a){var
-d=e(function(c){return bL(b,cb(c,a))},c);return[0,bL(b,a),d]}function
-kl(b,e,a,d){var
+e=a;return e}function
+xi(a){return L(fQ([0,a[2],a[1]]))}function
+kr(a){return[0,a[1],a[2]]}function
+pH(b,c,a){var
+e=d(function(c){return bN(b,ce(c,a))},c);return[0,bN(b,a),e]}function
+ks(b,e,a,d){var
 c=y(function(a){var
-b=kk(a[2]);return g(y(kk,a[1]),b)},d),f=a?[0,bL(b,a[1]),0]:a,h=g(f,c);return[0,bL(b,e),h]}function
-pt(c,f,b,a){var
-d=hW(f,b,a),e=d?hO(c,a):d;return e?l(function(b){return hO(c,cb(b,a))},b):e}function
-pu(a){switch(a[0]){case
+b=kr(a[2]);return g(y(kr,a[1]),b)},d),f=a?[0,bN(b,a[1]),0]:a,h=g(f,c);return[0,bN(b,e),h]}function
+pI(c,f,b,a){var
+d=h2(f,b,a),e=d?hU(c,a):d;return e?k(function(b){return hU(c,ce(b,a))},b):e}function
+pJ(a){switch(a[0]){case
 3:var
-d=kb(a[2]);return[0,a[3],d];case
+d=ki(a[2]);return[0,a[3],d];case
 4:return[0,a[1],0];case
 8:var
-b=a[1],e=kb(b[1]);return[0,b[2],e];case
+b=a[1],e=ki(b[1]);return[0,b[2],e];case
 9:return 0;default:var
-c=kb(a[1]);return[0,a[2],c]}}function
-pv(a,au,bc,k,o,at,ar,w,O,j,i){switch(j[0]){case
+c=ki(a[1]);return[0,a[2],c]}}function
+pK(b,au,bc,l,o,at,as,y,P,j,i){switch(j[0]){case
 0:var
-av=j[4],R=j[3],aw=j[2],ax=j[1],U=0;if(typeof
-i==="number")U=1;else
+av=j[4],S=j[3],aw=j[2],ax=j[1],V=0;if(typeof
+i==="number")V=1;else
 switch(i[0]){case
 0:var
-bd=i[2],be=i[1],u=aw,t=ax,r=function(b){return o4(a,o,be,bd,R,b)},p=av;break;case
+bd=i[2],be=i[1],u=aw,t=ax,s=function(a){return ph(b,o,be,bd,S,a)},p=av;break;case
 2:var
-ay=H(R[1],d),az=ay?H(R[2],d):ay;if(!az)return az;var
-bh=i[2],bi=i[1],u=aw,t=ax,r=function(b){return o5(a,o,bi,bh,b)},p=av;break;default:U=1}if(U)return 0;break;case
+ay=H(S[1],e),az=ay?H(S[2],e):ay;if(!az)return az;var
+bh=i[2],bi=i[1],u=aw,t=ax,s=function(a){return pi(b,o,bi,bh,a)},p=av;break;default:V=1}if(V)return 0;break;case
 1:var
 aK=0;if(typeof
 i==="number"&&!i)var
-bj=j[2],bk=j[1],bl=j[3],u=bj,t=bk,bm=0,r=function(b){return o6(a,o,bl,b)},p=bm;else
+bj=j[2],bk=j[1],bl=j[3],u=bj,t=bk,bm=0,s=function(a){return pj(b,o,bl,a)},p=bm;else
 aK=1;if(aK)return 0;break;case
 2:if(typeof
 i!=="number"&&3===i[0]){var
-y=i[3];if(y){var
-aA=y[2],aB=m(f(aA),k);if(aB){var
-bn=[0,j[1],j[2],O],bo=e2(function(a){return q(a,w,w1)},bn),aC=i[1],bp=0,bq=y[1],br=i[2],bs=j[3],bt=function(w,i){var
-c=e1(i[1]);if(c){var
-j=c[1],e=i[2];if(e){var
-f=dx(i[3]);if(f){var
-k=f[1],l=function(c){return aH(c,aC,L(a,b))},u=l(w),v=e[1],g=z(s(a,l(bq),v),u),m=I(d,g[1]),n=m?aX(a,o,hd(aC,br,j,$([0,B(Q(g),k),0],o))):m;if(n){var
-h=he(a,j,$([0,B(s(a,bs,g),k),0],o));if(h)return aX(a,o,h[1]);var
+z=i[3];if(z){var
+aA=z[2],aC=m(f(aA),l);if(aC){var
+bn=[0,j[1],j[2],P],bo=e8(function(a){return q(a,y,xl)},bn),aD=i[1],bp=0,bq=z[1],bs=i[2],bt=j[3],bu=function(x,i){var
+c=e7(i[1]);if(c){var
+j=c[1],d=i[2];if(d){var
+f=dD(i[3]);if(f){var
+k=f[1],l=function(c){return aB(c,aD,J(b,a))},u=l(x),v=d[1],g=w(r(b,l(bq),v),u),m=I(e,g[1]),n=m?aU(b,o,hj(aD,bs,j,X([0,B(N(g),k),0],o))):m;if(n){var
+h=hk(b,j,X([0,B(r(b,bt,g),k),0],o));if(h)return aU(b,o,h[1]);var
 p=h}else
 var
 p=n;var
 q=p}else
 var
 q=f;var
-r=q}else
+s=q}else
 var
-r=e;var
-t=r}else
+s=d;var
+t=s}else
 var
-t=c;return t};return j$(function(b,a){return e2},bt,bp,aA,d,bo)}var
-aD=aB}else
+t=c;return t};return kg(function(b,a){return e8},bu,bp,aA,e,bo)}var
+aF=aC}else
 var
-aD=y;return aD}return 0;case
+aF=z;return aF}return 0;case
 3:var
-aL=0;if(typeof
-i==="number"||!(0===i[0]))aL=1;else
+aM=0;if(typeof
+i==="number"||!(0===i[0]))aM=1;else
 var
-aE=i[2],aG=i[1],bu=j[3],bv=j[2],bw=j[4],bx=j[1],by=function(g){var
-b=e1(g[1]);if(b){var
-c=b[1],d=g[2];if(d){var
-e=dx(g[3]);if(e){var
-h=m(f(c),o),i=h?m(f(aE),o):h;if(i){var
-n=dY(aG,dZ(aG,aE,d[1],c));return aX(a,o,aV(hi(a,bx,bw,e[1],c),n))}var
+aG=i[2],aH=i[1],bv=j[3],bw=j[2],bx=j[4],by=j[1],bz=function(g){var
+a=e7(g[1]);if(a){var
+c=a[1],d=g[2];if(d){var
+e=dD(g[3]);if(e){var
+h=m(f(c),o),i=h?m(f(aG),o):h;if(i){var
+n=dZ(aH,d0(aH,aG,d[1],c));return aU(b,o,aL(hp(b,by,bx,e[1],c),n))}var
 j=i}else
 var
 j=e;var
@@ -5052,79 +5201,79 @@ var
 k=d;var
 l=k}else
 var
-l=b;return l},u=bu,t=bv,r=by,p=j[5];if(aL)return 0;break;case
+l=a;return l},u=bv,t=bw,s=bz,p=j[5];if(aM)return 0;break;case
 4:var
-aM=0;if(typeof
-i==="number"&&!i)var
-u=j[1],t=0,r=wf,p=0;else
-aM=1;if(aM)return 0;break;case
-5:var
 aN=0;if(typeof
-i==="number"||!(0===i[0]))aN=1;else{var
-A=i[2],aO=0;if(A){var
+i==="number"&&!i)var
+u=j[1],t=0,s=wB,p=0;else
+aN=1;if(aN)return 0;break;case
+5:var
+aO=0;if(typeof
+i==="number"||!(0===i[0]))aO=1;else{var
+A=i[2],aP=0;if(A){var
 C=A[1];if(C){if(C[2])return 0;if(A[2])return 0;var
-bz=j[2],bB=j[1],bC=L(a,b),bD=[0,[0,C[1],0],0],bE=i[1],u=bz,t=bB,bF=0,r=function(b){return o4(a,w2,bE,bD,bC,b)},p=bF;aO=1}else
+bA=j[2],bB=j[1],bC=J(b,a),bE=[0,[0,C[1],0],0],bF=i[1],u=bA,t=bB,bG=0,s=function(a){return ph(b,xm,bF,bE,bC,a)},p=bG;aP=1}else
 var
 aI=C}else
 var
-aI=A;if(!aO)return aI}if(aN)return 0;break;case
+aI=A;if(!aP)return aI}if(aO)return 0;break;case
 6:var
-aP=0;if(typeof
-i==="number"&&!i)var
-bG=j[2],bH=j[1],bI=L(a,b),u=bG,t=bH,bJ=0,r=function(b){return o6(a,w3,bI,b)},p=bJ;else
-aP=1;if(aP)return 0;break;case
-7:var
 aQ=0;if(typeof
-i==="number"&&5<=i)var
-bK=j[2],bL=j[1],bM=j[4],bO=j[3],u=bK,t=bL,bP=0,r=function(b){return o5(a,o,bO,bM,b)},p=bP;else
+i==="number"&&!i)var
+bH=j[2],bI=j[1],bJ=J(b,a),u=bH,t=bI,bK=0,s=function(a){return pj(b,xn,bJ,a)},p=bK;else
 aQ=1;if(aQ)return 0;break;case
+7:var
+aR=0;if(typeof
+i==="number"&&5<=i)var
+bL=j[2],bM=j[1],bN=j[4],bO=j[3],u=bL,t=bM,bQ=0,s=function(a){return pi(b,o,bO,bN,a)},p=bQ;else
+aR=1;if(aR)return 0;break;case
 8:if(typeof
 i!=="number"&&9===i[0]){var
-S=i[4],aJ=i[2],T=i[1],n=j[1],v=n[9],bQ=i[3],aR=n[5],aS=cp(g(cP(n[4]),aR),au),aT=e(_,bc),V=db(0,b7(a,nB(n[9],k,at,n[7],n[8]),aT),aS,au),W=mz(S,d);if(W)var
-D=W;else
+T=i[4],aJ=i[2],U=i[1],n=j[1],v=n[9],bS=i[3],aS=n[5],aT=bD(g(cQ(n[4]),aS),au),aV=d(R,bc),W=dk(0,b_(b,nI(n[9],l,at,n[7],n[8]),aV),aT,au),Y=mF(T,e);if(Y)var
+D=Y;else
 var
-ap=mA(S,c(2,c(2,c(2,c(2,b))))),aq=ap?aF(0,v):ap,D=aq?aF(v,k):aq;var
-X=D?ae(v,k):D,Y=X?m(f(at),k):X,Z=Y?m(f(aJ),k):Y,aa=Z?m(f(n[1]),k):Z,ab=aa?m(f(n[6]),k):aa,ac=ab?m(f(n[4]),k):ab;if(ac)var
-aW=n[4],E=l(function(a){return m(f(a),k)},aW);else
+aq=mG(T,c(2,c(2,c(2,c(2,a))))),ar=aq?aE(0,v):aq,D=ar?aE(v,l):ar;var
+Z=D?ae(v,l):D,_=Z?m(f(at),l):Z,$=_?m(f(aJ),l):_,aa=$?m(f(n[1]),l):$,ab=aa?m(f(n[6]),l):aa,ac=ab?m(f(n[4]),l):ab;if(ac)var
+aW=n[4],E=k(function(a){return m(f(a),l)},aW);else
 var
 E=ac;if(E){var
-aY=n[4],F=ad(e(function(a){return ph(V,a)},aY));if(F){var
-af=ph(V,n[5]);if(af){var
-aZ=n[6],G=ad(e(function(j){var
-c=j[1],k=n[7],d=q(c[1],ar,0);if(d){var
-h=c[2][2],b=ad(e(function(a){var
-b=q(a[2],ar,0);return x(function(a){return a[2]},b)},h));if(b)var
-i=b[1],f=[0,b5(an(s(a,k,P(a,pf(a,e(as,c[2][2]),i)))))];else
+aX=n[4],F=ad(d(function(a){return pw(W,a)},aX));if(F){var
+af=pw(W,n[5]);if(af){var
+aZ=n[6],G=ad(d(function(j){var
+c=j[1],k=n[7],e=q(c[1],as,0);if(e){var
+h=c[2][2],a=ad(d(function(a){var
+b=q(a[2],as,0);return x(function(a){return a[2]},b)},h));if(a)var
+i=a[1],f=[0,bR(aj(r(b,k,Q(b,pu(b,d(ao,c[2][2]),i)))))];else
 var
-f=b;var
+f=a;var
 g=f}else
 var
-g=d;return g},aZ));if(G){var
-a0=n[1],a1=n[2],J=ad(e(function(m){function
+g=e;return g},aZ));if(G){var
+a0=n[1],a1=n[2],K=ad(d(function(m){function
 f(e){var
-g=$(e,k),c=o3(q(m[2],w,wK),g);if(c){var
-h=$(e,k),d=o3(q(a1,w,wL),h);if(d){var
-i=d[1],j=L(a,b);return cn(a,bA(co(c[1],j,i)))}var
+g=X(e,l),c=pg(q(m[2],y,w6),g);if(c){var
+h=X(e,l),d=pg(q(a1,y,w7),h);if(d){var
+i=d[1],j=J(b,a);return cq(b,br(b8(c[1],j,i)))}var
 f=d}else
 var
 f=c;return f}var
 c=f(0);if(c){var
-e=f(2);if(e)var
-g=bA(an(z(c[1],e[1]))),h=I(d,g[1]),l=h?[0,g]:h,i=l;else
+d=f(2);if(d)var
+g=br(aj(w(c[1],d[1]))),h=I(e,g[1]),k=h?[0,g]:h,i=k;else
 var
-i=e;var
+i=d;var
 j=i}else
 var
-j=c;return j},a0));if(J){var
-ag=nv(a,k,v,F[1]),K=aH(bQ,T,L(a,b)),ah=I(d,B(K,ag)[1]);if(ah){var
-M=bN(a,K);if(M){var
-a2=an(s(a,ag,M[1])),a3=B(L(a,b),a2),a4=[0,n[1],n[2],O],a5=e2(function(a){return q(a,w,wM)},a4),a6=n[6],a7=e(wJ,N(N(G[1],J[1]),a6)),a8=P(a,a3),a_=P(a,K),a$=nw(k,v,n[10],S),ba=function(n){var
-b=pe(n[1]);if(b){var
-o=b[1],c=n[2];if(c){var
-d=c[1],h=dx(n[3]);if(h){var
-p=h[1],q=pg(a,k,a7,d,o),i=e(function(a){var
-b=a[2];return[0,nx(a$,a[1]),b]},o),z=dY(T,dZ(T,aJ,d,i)),j=aV($([0,Q(p),0],k),z),A=B(s(a,d,a8),p),r=m(f(i),k),t=r?m(f(q),k):r,u=t?nz(k,j):t,v=u?aX(a,k,aV(e(function(b){return[0,Q(s(a,a_,b[2])),0]},i),j)):u;if(v){var
-C=a9(aU(k));return l(function(b){return aX(a,[0,k],ny(j,nA(g(b,wI),q),A))},C)}var
+j=c;return j},a0));if(K){var
+ag=nC(b,l,v,F[1]),L=aB(bS,U,J(b,a)),ah=I(e,B(L,ag)[1]);if(ah){var
+O=bP(b,L);if(O){var
+a2=aj(r(b,ag,O[1])),a3=B(J(b,a),a2),a5=[0,n[1],n[2],P],a6=e8(function(a){return q(a,y,w8)},a5),a7=n[6],a8=d(w5,M(M(G[1],K[1]),a7)),a9=Q(b,a3),a_=Q(b,L),a$=nD(l,v,n[10],T),ba=function(n){var
+a=pt(n[1]);if(a){var
+o=a[1],c=n[2];if(c){var
+e=c[1],h=dD(n[3]);if(h){var
+p=h[1],q=pv(b,l,a8,e,o),i=d(function(a){var
+b=a[2];return[0,nE(a$,a[1]),b]},o),z=dZ(U,d0(U,aJ,e,i)),j=aL(X([0,N(p),0],l),z),A=B(r(b,e,a9),p),s=m(f(i),l),t=s?m(f(q),l):s,u=t?nG(l,j):t,v=u?aU(b,l,aL(d(function(a){return[0,N(r(b,a_,a[2])),0]},i),j)):u;if(v){var
+C=a4(aY(l));return k(function(a){return aU(b,[0,l],nF(j,nH(g(a,w4),q),A))},C)}var
 w=v}else
 var
 w=h;var
@@ -5133,90 +5282,90 @@ var
 x=c;var
 y=x}else
 var
-y=b;return y},bb=n[3];return h(ka(function(b,a){return e2},bb,k,ba),a5)}var
-ai=M}else
+y=a;return y},bb=n[3];return h(kh(function(b,a){return e8},bb,l,ba),a6)}var
+ai=O}else
 var
 ai=ah;var
-aj=ai}else
+ak=ai}else
 var
-aj=J;var
-ak=aj}else
-var
-ak=G;var
+ak=K;var
 al=ak}else
 var
-al=af;var
+al=G;var
 am=al}else
 var
-am=F;var
-ao=am}else
+am=af;var
+an=am}else
 var
-ao=E;return ao}return 0;default:return 0}var
-bf=[0,t,u,O],bg=e2(function(a){return q(a,w,w0)},bf);return h(ka(function(b,a){return e2},p,k,r),bg)}function
-w4(b,a){var
-c=jh(jc,b[1],a[1]);return c?jc(b[2],a[2]):c}function
-pw(c,b){var
-a=jh(w4,c,b),d=a?1:a;return d}function
-px(j,s,r,i,q,k,p,o,n,h,l,g,a,e){if(typeof
-e==="number"){if(0===e)return 9===a[0]?eS(j,0,0,0,g,i,0,a[1],e):0}else
-switch(e[0]){case
+an=F;var
+ap=an}else
+var
+ap=E;return ap}return 0;default:return 0}var
+bf=[0,t,u,P],bg=e8(function(a){return q(a,y,xk)},bf);return h(kh(function(b,a){return e8},p,l,s),bg)}function
+xo(b,a){var
+c=jm(g1,b[1],a[1]);return c?g1(b[2],a[2]):c}function
+pL(c,b){var
+a=jm(xo,c,b),d=a?1:a;return d}function
+pM(j,s,r,i,q,k,p,o,n,h,l,g,b,d){if(typeof
+d==="number"){if(0===d)return 9===b[0]?eX(j,0,0,0,g,i,0,b[1],d):0}else
+switch(d[0]){case
 6:var
-f=e[1];if(typeof
+f=d[1];if(typeof
 f!=="number"&&7===f[0]){if(k){var
-t=f[3],u=f[2],v=D(d,u),w=v?g2(t,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):v;if(w)return pv(j,s,r,i,q,h,g,l,[0,[0,[0,k[1],u],t]],a,f[1]);var
+t=f[3],u=f[2],v=D(e,u),w=v?fG(t,c(2,c(2,c(2,c(2,c(2,c(2,a))))))):v;if(w)return pK(j,s,r,i,q,h,g,l,[0,[0,[0,k[1],u],t]],b,f[1]);var
 x=w}else
 var
-x=k;return x}return pv(j,s,r,i,q,h,g,l,0,a,f);case
-8:return 9===a[0]?eS(j,0,0,0,g,i,0,a[1],e):0;case
-10:if(0===a[0]){var
-y=pw(a[1],p),z=y?m(a[2],o):y;return z?gx(n,h,a[3],a[4],e):z}return 0;case
-12:if(0===a[0]){var
-A=pw(a[1],p),B=A?m(a[2],o):A;return B?gx(n,h,a[3],a[4],e):B}return 0}return 0}function
-py(b){var
+x=k;return x}return pK(j,s,r,i,q,h,g,l,0,b,f);case
+8:return 9===b[0]?eX(j,0,0,0,g,i,0,b[1],d):0;case
+10:if(0===b[0]){var
+y=pL(b[1],p),z=y?m(b[2],o):y;return z?gD(n,h,b[3],b[4],d):z}return 0;case
+12:if(0===b[0]){var
+A=pL(b[1],p),B=A?m(b[2],o):A;return B?gD(n,h,b[3],b[4],d):B}return 0}return 0}function
+pN(b){var
 a=b[2];if(typeof
 a!=="number"&&6===a[0])return 1;return 0}function
-w5(c){var
+xp(c){var
 b=0,a=c[2];if(typeof
 a==="number"){if(0!==a)b=1}else
 switch(a[0]){case
 6:case
 8:break;default:b=1}return b?0:1}function
-w6(a){switch(a[0]){case
+xq(a){switch(a[0]){case
 8:return 0;case
-9:return jM(a[1]);default:return 1}}function
-f$(a,o,m,j,A,w,b,v,u,D,i,k,ap,c){switch(c[0]){case
+9:return jT(a[1]);default:return 1}}function
+gf(a,o,m,j,A,z,b,v,u,D,i,l,aq,c){switch(c[0]){case
 0:var
-aq=function(a){return l(J,a)},R=aq,p=c[1];break;case
+ar=function(a){return k(L,a)},R=ar,p=c[1];break;case
 1:var
-ar=c[4],at=c[3],au=c[2],av=function(c){var
-d=dk(au,k),e=f$(a,o,m,j,A,w,b,v,u,D,i,d[1],c,at);return e?f$(a,o,m,j,A,w,b,v,u,D,i,d[2],c,ar):e},R=av,p=c[1];break;default:var
+as=c[4],at=c[3],au=c[2],av=function(c){var
+d=ds(au,l),e=gf(a,o,m,j,A,z,b,v,u,D,i,d[1],c,at);return e?gf(a,o,m,j,A,z,b,v,u,D,i,d[2],c,as):e},R=av,p=c[1];break;default:var
 aw=c[4],ax=c[3],ay=c[2],az=function(c){var
-d=od(w6,j,c);if(d){var
-e=dk(ay,i),f=f$(a,o,m,j,A,w,b,v,u,D,e[1],k,c,ax);if(f)return f$(a,o,m,j,A,w,b,v,u,D,e[2],k,c,aw);var
+d=os(xq,j,c);if(d){var
+e=ds(ay,i),f=gf(a,o,m,j,A,z,b,v,u,D,e[1],l,c,ax);if(f)return gf(a,o,m,j,A,z,b,v,u,D,e[2],l,c,aw);var
 g=f}else
 var
 g=d;return g},R=az,p=c[1]}var
-ae=h(D,i),ab=ag(w5,p),ac=ab?jH(a,m,i,cp(y(function(c){var
+ae=h(D,i),ab=ag(xp,p),ac=ab?jO(a,m,i,bD(y(function(c){var
 a=F(j,c[1]);if(a){var
 b=a[1];switch(b[0]){case
 8:var
-d=b[1][6];return y(function(a){var
-b=e(aK,a[1][2][2]);return[0,a[1][1],b]},d);case
-9:return fQ(0,0,0,b[1],c[2]);default:return 0}}return a},p),m),k):ab,ad=ag(py,p);if(ad)var
+e=b[1][6];return y(function(a){var
+b=d(aH,a[1][2][2]);return[0,a[1][1],b]},e);case
+9:return eY(0,0,0,b[1],c[2]);default:return 0}}return a},p),m),l):ab,ad=ag(pN,p);if(ad)var
 an=y(function(b){var
-c=py(b);if(c){var
-a=F(j,b[1]);if(a)return pu(a[1]);var
+c=pN(b);if(c){var
+a=F(j,b[1]);if(a)return pJ(a[1]);var
 d=a}else
 var
-d=c;return d},p),ao=b?[0,b[1],0]:b,ai=mU(g(ao,an),o),O=j_(a,i,eD(hP(eD(o,0),ai),0),k);else
+d=c;return d},p),ap=b?[0,b[1],0]:b,ai=m1(g(ap,an),o),P=kf(a,i,eI(hV(eI(o,0),ai),0),l);else
 var
-O=ad;var
-r=p,f=ap;for(;;){if(r){var
-U=r[1],E=U[2],n=U[1],H=r[2];if(n){var
+P=ad;var
+s=p,f=aq;for(;;){if(s){var
+U=s[1],E=U[2],n=U[1],H=s[2];if(n){var
 V=q(n,f,0);if(V){var
 K=F(j,n);if(K){var
-W=px(a,m,i,A,w,b,v,u,ae,k,O,ac,K[1],E);if(W){var
-r=H,f=hy(n,f);continue}var
+W=pM(a,m,i,A,z,b,v,u,ae,l,P,ac,K[1],E);if(W){var
+s=H,f=hE(n,f);continue}var
 X=W}else
 var
 X=K;var
@@ -5227,563 +5376,563 @@ C=Y}else{var
 af=0;if(typeof
 E==="number"&&4===E){var
 ah=0;if(b){var
-am=0,S=e(function(b){return[0,b,P(a,b)]},k),aj=e(aK,S),ak=g(e(as,S),aj),al=cR(0,function(o){return function(b){switch(b[0]){case
+am=0,S=d(function(b){return[0,b,Q(a,b)]},l),aj=d(aH,S),ak=g(d(ao,S),aj),al=cS(0,function(o){return function(b){switch(b[0]){case
 0:return[0,q(b[1],o,t)];case
 1:return[0,q(b[1],i,t)];case
-2:return[0,L(a,b[1])];case
+2:return[0,J(a,b[1])];case
 3:var
-c=b[2],d=b[1];return dw(function(b,a){return[0,z(b,a)]},d,c);case
+c=b[2],d=b[1];return dC(function(b,a){return[0,w(b,a)]},d,c);case
 4:var
-e=b[2],f=b[1];return dw(function(b,a){return[0,B(b,a)]},f,e);case
+e=b[2],f=b[1];return dC(function(b,a){return[0,B(b,a)]},f,e);case
 5:var
-g=b[1];return dv(function(a){return[0,Q(a)]},g);case
+g=b[1];return dB(function(a){return[0,N(a)]},g);case
 6:var
-h=b[2],j=b[1];return dw(function(c,b){return[0,s(a,c,b)]},j,h);case
+h=b[2],j=b[1];return dC(function(c,b){return[0,r(a,c,b)]},j,h);case
 7:var
-k=b[2],l=b[1];return dw(function(c,b){var
-d=bN(a,b);return x(function(b){return s(a,c,b)},d)},l,k);case
+k=b[2],l=b[1];return dC(function(c,b){var
+d=bP(a,b);return x(function(b){return r(a,c,b)},d)},l,k);case
 8:var
-m=b[1];return dv(function(b){return[0,P(a,b)]},m);case
+m=b[1];return dB(function(b){return[0,Q(a,b)]},m);case
 9:var
-n=b[1];return dv(function(b){return cn(a,b)},n);default:return 0}}}(ak),o),G=q(b[1],al,am);if(G){var
-M=I(G[1][2],d);ah=1}else
+n=b[1];return dB(function(b){return cq(a,b)},n);default:return 0}}}(ak),o),G=q(b[1],al,am);if(G){var
+M=I(G[1][2],e);ah=1}else
 var
 T=G}else
 var
 T=b;if(!ah)var
 M=T;if(M){var
-r=H,f=e(function(a){return 0},f);continue}var
+s=H,f=d(function(a){return 0},f);continue}var
 C=M}else
 af=1;if(af){var
 Z=q(n,f,0);if(Z){var
-N=F(j,n);if(N){var
-_=px(a,m,i,A,w,b,v,u,ae,k,O,ac,N[1],E);if(_){var
-r=H,f=hy(n,f);continue}var
+O=F(j,n);if(O){var
+_=pM(a,m,i,A,z,b,v,u,ae,l,P,ac,O[1],E);if(_){var
+s=H,f=hE(n,f);continue}var
 $=_}else
 var
-$=N;var
+$=O;var
 aa=$}else
 var
 aa=Z;var
 C=aa}}}else
 var
 C=[0,f];return C?R(C[1]):C}}function
-km(d,a){var
-e=X(a),f=u(u(n(c(2,b)),a),d);return C(A(X(d),f),e)}function
-kn(k,a,d,j,c,i){var
-e=ah(A,d$(k),j);if(i){var
+kt(d,b){var
+e=_(b),f=u(u(n(c(2,a)),b),d);return C(A(_(d),f),e)}function
+ku(k,a,d,j,c,i){var
+e=ah(A,ec(k),j);if(i){var
 b=function(b){var
-c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=f8([0,b(function(a){return a[1]}),g,f],e);return ah(C,a_(d,c),l)}var
-m=f8(a,c);return ah(C,a_(d,e),m)}function
-pz(f,h,g,k,a,d){var
-e=d$(f),i=ah(A,e,a),j=f8(h,d),l=km(e[3],a[3]),m=km(e[2],a[2]),o=km(e[1],a[1]),p=C(C(C(ac(d,d),o),m),l),q=ac(j,i),r=u(n(c(2,b)),q),s=C(u(g,p),r),t=bq(bt(j,i),k);return[0,f9(f,kn(f,h,g,a,d,0),t),s]}function
-pA(d,c,b,a){var
-e=hU(c,b,a);return ah(C,d$(d),e)}function
-pB(g,f,e,d,c){var
-b=pA(g,f,e,c),a=ah(A,b,d);return[0,[0,b,a],aO(ac(a,a))]}function
-hX(b,a){var
+c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=gc([0,b(function(a){return a[1]}),g,f],e);return ah(C,a$(d,c),l)}var
+m=gc(a,c);return ah(C,a$(d,e),m)}function
+pO(f,h,g,k,b,d){var
+e=ec(f),i=ah(A,e,b),j=gc(h,d),l=kt(e[3],b[3]),m=kt(e[2],b[2]),o=kt(e[1],b[1]),p=C(C(C(ac(d,d),o),m),l),q=ac(j,i),r=u(n(c(2,a)),q),s=C(u(g,p),r),t=bs(bv(j,i),k);return[0,gd(f,ku(f,h,g,b,d,0),t),s]}function
+pP(d,c,b,a){var
+e=h0(c,b,a);return ah(C,ec(d),e)}function
+pQ(g,f,e,d,c){var
+b=pP(g,f,e,c),a=ah(A,b,d);return[0,[0,b,a],aQ(ac(a,a))]}function
+h3(b,a){var
 c=bi(a[2],b);return g(bi(a[1],b),c)}function
-ko(d,b,a,c){if(a)var
-e=a[1],g=cw(c,hX(b,e)),i=O(c,f(hX(b,e))),j=ko(d,b,a[2],i),k=ao(g,w7),h=[0,at(d,ao(g,0),k),j];else
+kv(d,b,a,c){if(a)var
+e=a[1],g=cx(c,h3(b,e)),i=P(c,f(h3(b,e))),j=kv(d,b,a[2],i),k=ar(g,xr),h=[0,au(d,ar(g,0),k),j];else
 var
 h=a;return h}function
-kp(f,o,e,m,a){var
-g=u(X(q(0,m,n(d))),o);if(typeof
+kw(f,o,d,m,a){var
+g=u(_(q(0,m,n(e))),o);if(typeof
 a!=="number")switch(a[0]){case
 2:var
-b=F(e,a[1]);if(b)var
+b=F(d,a[1]);if(b)var
 h=i(f,0,a[2]),j=h?[0,A(b[1][1][2],g)]:h;else
 var
 j=b;return j;case
 3:var
-c=F(e,a[1]);if(c)var
+c=F(d,a[1]);if(c)var
 k=i(f,0,a[2]),l=k?[0,A(g,c[1][1][2])]:k;else
 var
 l=c;return l}return 0}function
-pC(c,b,a){if(typeof
+pR(c,b,a){if(typeof
 a!=="number"&&6===a[0]){var
-e=F(c,a[1]);return x(function(a){var
-c=q(0,b,n(d)),e=h(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
-hY(a){return i(j,0,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],a])}function
-pD(a){var
-b=ao(a,w8),c=aO(ac(ao(a,w9),b));return u(q(0,a,n(d)),c)}function
-pE(b,a){var
-c=ac(a,ao(b,w_));return[0,bP(a_(pD(b),a)),c]}function
-pF(e,d,a,c,b){var
-f=b[2],g=u(pD(a),f),h=c?hU(e,d,ao(a,w$)):ao(a,xa);return A(ac(b[1][2],h),g)}function
-pG(h,g,f,d,c,b,a){var
-i=bx(c);function
-j(a){return pA(h,g,f,a)}return oj(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
-ec(a){var
-b=q(xb,a,n(d));return aj(q(0,a,n(d)),b)}function
-kq(a){return a[4][2]}function
-pH(f,o,m,l,a){var
-p=a[1][2],q=e(aK,fV(m,a[1][2])),h=ec(l),i=u(u(n(c(2,b)),o),h),d=a[1][1],j=az(bV(f),d),k=e(function(a){return u(a,i)},j);return[0,g(g(aq(bV(f),d),k),q),p]}function
-pI(a){var
-b=a[3],c=a[2],d=a[1];return hJ([0,[0,d,d],[0,c,c],[0,b,b]])}function
-xk(a){if(typeof
+d=F(c,a[1]);return x(function(a){var
+c=q(0,b,n(e)),d=h(a[2][2],c);return[0,a[2][1],d]},d)}return 0}function
+h4(b){return i(j,0,[3,[0,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a))))))))),a],b])}function
+pS(a){var
+b=ar(a,xs),c=aQ(ac(ar(a,xt),b));return u(q(0,a,n(e)),c)}function
+pT(b,a){var
+c=ac(a,ar(b,xu));return[0,bS(a$(pS(b),a)),c]}function
+pU(e,d,a,c,b){var
+f=b[2],g=u(pS(a),f),h=c?h0(e,d,ar(a,xv)):ar(a,xw);return A(ac(b[1][2],h),g)}function
+pV(h,g,f,e,c,b,a){var
+i=bp(c);function
+j(a){return pP(h,g,f,a)}return oy(d(function(a){return[0,a[4]]},e),j,i,b,a)}function
+ef(a){var
+b=q(xx,a,n(e));return ak(q(0,a,n(e)),b)}function
+kx(a){return a[4][2]}function
+pW(f,o,m,l,b){var
+p=b[1][2],q=d(aH,f1(m,b[1][2])),h=ef(l),i=u(u(n(c(2,a)),o),h),e=b[1][1],j=aw(bY(f),e),k=d(function(a){return u(a,i)},j);return[0,g(g(ap(bY(f),e),k),q),p]}function
+pX(a){var
+b=a[3],c=a[2],d=a[1];return hP([0,[0,d,d],[0,c,c],[0,b,b]])}function
+xG(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-pJ(b,a){switch(b){case
+pY(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-hZ(a){var
-c=cs(a[1],[0,d,b]);return c?cs(a[2],[0,d,b]):c}function
-kr(d,a){switch(d){case
-0:return hZ(a[3]);case
+h5(b){var
+c=ct(b[1],[0,e,a]);return c?ct(b[2],[0,e,a]):c}function
+ky(d,a){switch(d){case
+0:return h5(a[3]);case
 1:return 1;default:var
-b=hZ(a[1]),c=b?hZ(a[2]):b;return c?hZ(a[3]):c}}function
-ks(c,b){var
-a=y(function(a){return hX(c,a)},b),d=N(aA(0,f(a)),a);return e(as,aW(function(a){return jS(a[2])},d))}function
-pK(b){var
+b=h5(a[1]),c=b?h5(a[2]):b;return c?h5(a[3]):c}}function
+kz(c,b){var
+a=y(function(a){return h3(c,a)},b),e=M(ax(0,f(a)),a);return d(ao,aP(function(a){return jZ(a[2])},e))}function
+pZ(b){var
 a=b[2];if(typeof
 a!=="number")switch(a[0]){case
 10:case
 12:return 1}return 0}function
-pL(c){var
-a=c;for(;;){if(0===a[0])return ag(pK,a[1]);var
-d=ag(pK,a[1]),b=d||pL(a[3]);if(b)return b;var
+p0(c){var
+a=c;for(;;){if(0===a[0])return ag(pZ,a[1]);var
+d=ag(pZ,a[1]),b=d||p0(a[3]);if(b)return b;var
 a=a[4];continue}}function
-xl(a,aS,bB,B,E,aR){var
-o=B[1],k=bK(o),_=B[6],bC=B[2],R=y(function(a){return hX(E,a)},bC),aT=B[3],V=[0,[0,aT,aT],E],ae=[0,f(R)],bD=0,aU=y(function(a){return f6(bD,E,a)},_),bE=bV(o),aV=o9(B[5],bE),p=aV[2],I=aV[1],M=bR(V,f(R)),bG=B[2],W=f(R),bF=0,w=ko(function(c,a){function
+xH(b,aT,bB,B,E,aS){var
+o=B[1],l=bM(o),$=B[6],bC=B[2],R=y(function(a){return h3(E,a)},bC),aV=B[3],V=[0,[0,aV,aV],E],ae=[0,f(R)],bD=0,aW=y(function(a){return ga(bD,E,a)},$),bE=bY(o),aX=pm(B[5],bE),p=aX[2],I=aX[1],O=bU(V,f(R)),bG=B[2],W=f(R),bF=0,z=kv(function(c,b){function
 h(e){var
-b=pi(o,bK(o)),m=pk(o,I,p,c,a,b)[2],f=pk(o,I,p,c,a,b),g=f[1],h=bq(g[2],f[2]),i=bt(g[1],h),j=ah(C,i,bt(i,b)),d=a_(kf(b),j),k=u(d[3],e),l=u(d[2],e);return[0,f9(o,h,[0,u(d[1],e),l,k]),m]}function
+a=px(o,bM(o)),m=pz(o,I,p,c,b,a)[2],f=pz(o,I,p,c,b,a),g=f[1],h=bs(g[2],f[2]),i=bv(g[1],h),j=ah(C,i,bv(i,a)),d=a$(km(a),j),k=u(d[3],e),l=u(d[2],e);return[0,gd(o,h,[0,u(d[1],e),l,k]),m]}function
 i(F){var
-k=pB(o,I,p,c,a),l=k[1],D=ah(A,d$(o),c),m=k[2],i=l[1],E=l[2],e=hU(I,p,a),h=bq(E,m),u=aj(ac(e,h),M),v=X(M),w=aj(ac(a,a),v),x=2<=o?d:b,y=C(n(x),w),z=pc(o,e,M),f=ah(A,[0,[0,[1,W]],[0,[1,[0,W]]],[0,[1,[0,[0,W]]]]],c),g=bq(f,aO(ac(f,f)));if(o)var
-j=hT(o,W,c,i,g[3]);else
+k=pQ(o,I,p,c,b),l=k[1],D=ah(A,ec(o),c),m=k[2],i=l[1],E=l[2],d=h0(I,p,b),h=bs(E,m),u=ak(ac(d,h),O),v=_(O),w=ak(ac(b,b),v),x=2<=o?e:a,y=C(n(x),w),z=pr(o,d,O),f=ah(A,[0,[0,[1,W]],[0,[1,[0,W]]],[0,[1,[0,[0,W]]]]],c),g=bs(f,aQ(ac(f,f)));if(o)var
+j=hZ(o,W,c,i,g[3]);else
 var
-s=n(d),t=n(d),j=[0,n(d),t,s];var
-q=hT(o,W,c,i,g[2]),r=[0,hT(o,W,c,i,g[1]),q,j],B=ke(function(a,b){return pd(r,h,e,M,a,b)},z);return[0,f9(o,h,bq(bt(e,bq(D,m)),M)),B,y,u]}var
-j=pB(o,I,p,c,a);function
-k(b){return kn(o,I,p,c,a,b)}var
-e=2<=o?d:b;function
-f(b){var
-c=X(M),d=n(e),f=u(A(X(b),d),c);return u(p,A(ac(a,a),f))}var
-g=[0,ac(kn(o,I,p,c,a,1),a),f];return[0,pz(o,I,p,M,c,a),g,k,j,i,h]},E,bG,bF),Y=e(function(a){return a[1]},w),bH=O(ae,f(aU)),bJ=bV(o),bM=B[5];function
-U(a){return[0,[0,O(bJ,a)]]}var
-aJ=X([0,[1,bH]]);switch(bM[0]){case
+s=n(e),t=n(e),j=[0,n(e),t,s];var
+q=hZ(o,W,c,i,g[2]),r=[0,hZ(o,W,c,i,g[1]),q,j],B=kl(function(a,b){return ps(r,h,d,O,a,b)},z);return[0,gd(o,h,bs(bv(d,bs(D,m)),O)),B,y,u]}var
+j=pQ(o,I,p,c,b);function
+k(a){return ku(o,I,p,c,b,a)}var
+d=2<=o?e:a;function
+f(a){var
+c=_(O),e=n(d),f=u(A(_(a),e),c);return u(p,A(ac(b,b),f))}var
+g=[0,ac(ku(o,I,p,c,b,1),b),f];return[0,pO(o,I,p,O,c,b),g,k,j,i,h]},E,bG,bF),Y=d(function(a){return a[1]},z),bH=P(ae,f(aW)),bI=bY(o),bJ=B[5];function
+U(a){return[0,[0,P(bI,a)]]}var
+aK=_([0,[1,bH]]);switch(bJ[0]){case
 2:var
-br=U(wp),bs=U(wq),aL=[0,U(0),bs,br],G=[0,A(aJ,ac(aL,aL))];break;case
+bq=U(wL),br=U(wM),aL=[0,U(0),br,bq],G=[0,A(aK,ac(aL,aL))];break;case
 3:var
-bu=X(U(wr)),bv=X(U(0)),bw=X(U(ws)),G=[0,A(A(u(aJ,C(n(b),bw)),bv),bu)];break;default:var
+bt=_(U(wN)),bu=_(U(0)),bw=_(U(wO)),G=[0,A(A(u(aK,C(n(a),bw)),bu),bt)];break;default:var
 G=0}var
 aY=B[7];if(aY)var
-bN=0,bO=B[2],ao=ko(function(k,t){var
-a=pz(o,I,p,bR(V,f(R)),k,t);switch(o){case
+bL=0,bO=B[2],ap=kv(function(k,t){var
+a=pO(o,I,p,bU(V,f(R)),k,t);switch(o){case
 0:var
 c=a[1];if(c){var
-l=c[2],e=c[1];if(l){var
-m=l[1],s=a[2];return[0,[0,e,[0,m,[0,bt(k,[0,e,m,n(d)])[3],0]]],s]}return[0,[0,e,0],a[2]]}return[0,0,a[2]];case
+l=c[2],d=c[1];if(l){var
+m=l[1],s=a[2];return[0,[0,d,[0,m,[0,bv(k,[0,d,m,n(e)])[3],0]]],s]}return[0,[0,d,0],a[2]]}return[0,0,a[2]];case
 1:var
 g=a[1];if(g){var
 h=g[2],b=g[1];if(h){var
 q=h[2],i=h[1];if(q){var
-r=q[1],j=bt(k,[0,b,i,r]);return[0,[0,b,[0,i,[0,r,[0,j[1],[0,j[2],[0,j[3],0]]]]]],a[2]]}return[0,[0,b,[0,i,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]];default:return[0,a[1],a[2]]}},E,bO,bN);else
+r=q[1],j=bv(k,[0,b,i,r]);return[0,[0,b,[0,i,[0,r,[0,j[1],[0,j[2],[0,j[3],0]]]]]],a[2]]}return[0,[0,b,[0,i,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]];default:return[0,a[1],a[2]]}},E,bO,bL);else
 var
-ao=aY;var
-bQ=bI(ao),bS=G?[0,G[1],0]:G,bT=g(bS,bQ),bU=0,bW=g(R,[0,V,0]),bA=e(function(a){return a[1]},w),bX=[0,p,g(du(function(c,b){if(typeof
-b!=="number")switch(b[0]){case
+ap=aY;var
+bP=bK(ap),bQ=G?[0,G[1],0]:G,bR=g(bQ,bP),bT=0,bV=g(R,[0,V,0]),bA=d(function(a){return a[1]},z),bW=[0,p,g(dA(function(c,a){if(typeof
+a!=="number")switch(a[0]){case
 6:var
-f=pC(w,c,b);if(f)var
+f=pR(z,c,a);if(f)var
 j=f[1],k=[0,j[1],[0,j[2],0]];else
 var
 k=f;return k;case
-8:return e(aK,hL(bA,c));case
+8:return d(aH,hR(bA,c));case
 13:var
-i=F(w,b[1]);if(i){var
-l=hY(b[4]);if(l){var
-m=pE(c,h(i[1][3],b[2]));return g(m[1],[0,m[2],0])}var
+i=F(z,a[1]);if(i){var
+l=h4(a[4]);if(l){var
+m=pT(c,h(i[1][3],a[2]));return g(m[1],[0,m[2],0])}var
 n=l}else
 var
 n=i;return n;case
-16:return y(function(a){return pH(o,M,bW,c,a)[1]},w)}var
-d=kp(a,p,w,c,b),q=d?[0,d[1],0]:d;return q},bU,E,ae,_),bT)],ap=g(bI(Y),bX),bY=0,bZ=g(R,[0,V,0]),aZ=du(function(b,a){if(typeof
+16:return y(function(a){return pW(o,O,bV,c,a)[1]},z)}var
+e=kw(b,p,z,c,a),q=e?[0,e[1],0]:e;return q},bT,E,ae,$),bR)],aq=g(bK(Y),bW),bX=0,bZ=g(R,[0,V,0]),aZ=dA(function(b,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-f=F(w,a[1]);if(f){if(hY(a[4]))return 0;var
-k=[0,pF(I,p,b,a[2],f[1][4]),0]}else
+f=F(z,a[1]);if(f){if(h4(a[4]))return 0;var
+k=[0,pU(I,p,b,a[2],f[1][4]),0]}else
 var
 k=f;return k;case
 14:var
-i=pG(o,I,p,w,b,a[1],a[2]);if(i){var
-l=i[1],m=l[2],r=l[1];return y(bP,[0,r[1],[0,r[2],[0,m[1],[0,m[2],0]]]])}return i;case
+i=pV(o,I,p,z,b,a[1],a[2]);if(i){var
+l=i[1],m=l[2],r=l[1];return y(bS,[0,r[1],[0,r[2],[0,m[1],[0,m[2],0]]]])}return i;case
 15:var
-j=F(w,a[1]);if(j){var
-c=h(j[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,q(xc,b,n(d)),s],u=[0,q(0,b,n(d)),t],v=g(cP(c[2]),u);return g(c[1],v)}return j;case
+j=F(z,a[1]);if(j){var
+c=h(j[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,q(xy,b,n(e)),s],u=[0,q(0,b,n(e)),t],v=g(cQ(c[2]),u);return g(c[1],v)}return j;case
 16:var
-x=y(function(a){var
-b=e(aK,fV(bZ,kq(a)));return[0,kq(a),b]},w);return g(y(function(a){var
-c=ec(b),d=[0,h(a[6],c)[2],0],e=ec(b);return g(h(a[6],e)[1],d)},w),x)}return 0},bY,E,ae,_),a0=dd(e(function(a){return bL(k,a)},ap)),a1=dd(aZ),aa=dc(a0),a3=dc(a1),b0=cS(aa);function
-v(a){return h(b0,bL(k,a))}var
-K=cS(a3);function
+w=y(function(a){var
+b=d(aH,f1(bZ,kx(a)));return[0,kx(a),b]},z);return g(y(function(a){var
+c=ef(b),d=[0,h(a[6],c)[2],0],e=ef(b);return g(h(a[6],e)[1],d)},z),w)}return 0},bX,E,ae,$),a0=dm(d(function(a){return bN(l,a)},aq)),a1=dm(aZ),aa=dl(a0),a2=dl(a1),b0=cT(aa);function
+v(a){return h(b0,bN(l,a))}var
+K=cT(a2);function
 a4(i){if(0===B[4][0]){var
-s=x(v,G),t=v(p),e=bV(o),g=m(f(i),k);if(g)var
-h=x(function(a){return[0,[0,a,d],d]},s),a=function(a){return q(a,aa,n(d))},c=a(t),j=aA(0,e),b=l(function(b){var
-d=d9(k,b,c),e=d?l(function(d){var
-f=d[1],e=l(function(c){var
-d=a(c);return c0(O(k,b),d)},f);if(e){var
-g=a(d[2]);return hN(c,O(k,b),g)}return e},i):d;if(e){if(h){var
-g=a(h[1][1][1]);return c0(O(k,b),g)}var
+s=x(v,G),t=v(p),d=bY(o),g=m(f(i),l);if(g)var
+h=x(function(a){return[0,[0,a,e],e]},s),a=function(a){return q(a,aa,n(e))},c=a(t),j=ax(0,d),b=k(function(b){var
+d=ea(l,b,c),e=d?k(function(d){var
+f=d[1],e=k(function(c){var
+d=a(c);return c4(P(l,b),d)},f);if(e){var
+g=a(d[2]);return hT(c,P(l,b),g)}return e},i):d;if(e){if(h){var
+g=a(h[1][1][1]);return c4(P(l,b),g)}var
 f=1}else
 var
 f=e;return f},j);else
 var
 b=g;var
-r=b?e:b;return r}return 0}var
-Z=a4(h(aB(v),Y)),a5=l(function(a){var
-b=bL(k,a),c=n(d);return a2(q(v(a),aa,c),b)},ap),a6=a5?l(function(a){return hO(k,a)},ap):a5,a7=a6?l(function(a){var
-b=n(d);return a2(q(h(K,a),a3,b),a)},aZ):a6,a8=a7?ag(xk,_):a7;if(a8)var
-b1=J(B[7]),aq=b1||pn(a,[0,o],[0,B[5]]);else
+r=b?d:b;return r}return 0}var
+Z=a4(h(aC(v),Y)),a5=k(function(a){var
+b=bN(l,a),c=n(e);return a3(q(v(a),aa,c),b)},aq),a6=a5?k(function(a){return hU(l,a)},aq):a5,a7=a6?k(function(a){var
+b=n(e);return a3(q(h(K,a),a2,b),a)},aZ):a6,a8=a7?ag(xG,$):a7;if(a8)var
+b1=L(B[7]),ar=b1||pC(b,[0,o],[0,B[5]]);else
 var
-aq=a8;var
-a9=aq?kr(o,eW(B[4])):aq,a$=a9?i(a,1,B[3]):a9;if(a$)var
-b2=hS(B[5]),ar=l(function(b){var
-c=cA(a,b[1]);return c?cA(a,b[2]):c},b2);else
+ar=a8;var
+a9=ar?ky(o,e2(B[4])):ar,a_=a9?i(b,1,B[3]):a9;if(a_)var
+b2=hY(B[5]),as=k(function(a){var
+c=cB(b,a[1]);return c?cB(b,a[2]):c},b2);else
 var
-ar=a$;if(ar){var
-b3=g(R,[0,V,0]),at=ad(e(function(b){return au(a,b)},b3));if(at){var
-av=ad(e(function(b){return hM(a,b)},aU));if(av){var
-b4=pJ(o,eW(B[4])),aw=ad(e(function(b){return au(a,[0,b,E])},b4));if(aw){var
-ba=aw[1],b5=o$(B[5]),ax=ad(e(function(b){return pb(a,b)},b5));if(ax){var
-bb=ax[1],b6=o_(B[5]),ay=ad(e(cz(a),b6));if(ay){var
-az=g(R,[0,V,0]),b7=0,aC=ad(du(function(k,g){if(typeof
+as=a_;if(as){var
+b3=g(R,[0,V,0]),at=ad(d(function(a){return av(b,a)},b3));if(at){var
+au=ad(d(function(a){return hS(b,a)},aW));if(au){var
+b4=pY(o,e2(B[4])),aw=ad(d(function(a){return av(b,[0,a,E])},b4));if(aw){var
+ba=aw[1],b5=po(B[5]),ay=ad(d(function(a){return pq(b,a)},b5));if(ay){var
+bb=ay[1],b6=pn(B[5]),az=ad(d(cA(b),b6));if(az){var
+aA=g(R,[0,V,0]),b7=0,aD=ad(dA(function(l,g){if(typeof
 g!=="number")switch(g[0]){case
 13:var
-C=g[4],aM=F(w,g[1]);if(aM){if(pI(g[3])&&i(a,0,C)&&i(a,0,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],C])){var
-aN=g[2],aO=aM[1];if(hY(C)){var
-aG=pE(k,h(aO[3],aN)),V=aG[2];if(i(j,0,[3,C,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b]]))var
+C=g[4],aM=F(z,g[1]);if(aM){if(pX(g[3])&&i(b,0,C)&&i(b,0,[3,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a],C])){var
+aN=g[2],aO=aM[1];if(h4(C)){var
+aG=pT(l,h(aO[3],aN)),V=aG[2];if(i(j,0,[3,C,[0,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a))))))))),a]]))var
 aH=0;else
 var
-bf=v(V),bg=v(V),aH=[0,[6,[0,[0,e(v,aG[1]),bg],0],bf],0];var
+bf=v(V),bg=v(V),aH=[0,[6,[0,[0,d(v,aG[1]),bg],0],bf],0];var
 aP=[0,[4,v(V)],aH]}else
 var
-aP=[0,[9,[3,h(K,pF(I,p,k,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return xi}return xj;case
+aP=[0,[9,[3,h(K,pU(I,p,l,aN,aO[4]))]],0];return d(function(a){return[0,a]},aP)}return xE}return xF;case
 16:var
-X=g[3],u=g[2],aQ=g[1],bh=bK(o);if(m(f(w),bh)&&i(a,0,aQ)&&i(a,1,u)&&i(a,1,X)&&cA(a,X)){var
-aI=au(a,[0,[0,u,u],E]);if(aI){var
-bi=aI[1],aJ=h(cz(a),X);if(aJ){var
-bj=aJ[1],aK=ad(e(function(f){var
-b=jU(a,K,az,E,aQ,u,kq(f));if(b){var
-c=or(a,v,az,E,u,f[1][2]);if(c){var
-g=hW(0,0,f[1][2]);if(g)var
-i=e(as,c[1]),d=[0,[0,b[1],i]];else
+X=g[3],u=g[2],aQ=g[1],bh=bM(o);if(m(f(z),bh)&&i(b,0,aQ)&&i(b,1,u)&&i(b,1,X)&&cB(b,X)){var
+aI=av(b,[0,[0,u,u],E]);if(aI){var
+bi=aI[1],aJ=h(cA(b),X);if(aJ){var
+bj=aJ[1],aK=ad(d(function(f){var
+a=j1(b,K,aA,E,aQ,u,kx(f));if(a){var
+c=oG(b,v,aA,E,u,f[1][2]);if(c){var
+g=h2(0,0,f[1][2]);if(g)var
+i=d(ao,c[1]),e=[0,[0,a[1],i]];else
 var
-d=g}else
+e=g}else
 var
-d=c;var
-h=d}else
+e=c;var
+h=e}else
 var
-h=b;return h},w));if(aK){var
-bk=aK[1],bl=e(function(a){return pH(o,M,az,k,a)},w),aL=h(aB(v),bl),W=function(a){var
-b=bV(o),c=e(function(a){var
-b=ec(k);return h(K,h(a[6],b)[2])},w),d=e(function(a){var
-b=ec(k);return e(K,h(a[6],b)[1])},w),f=a4(aL);return[0,[8,[0,aL,v(p),f,d,c,bk,bi,bj,b,a]]]};if(2<=o)return[0,W(1),0];var
-bm=[0,W(1),0];return[0,W(0),bm]}return xe}return xf}return xg}return xh}var
-bn=0,y=e(function(a){return a[1]},w);function
+h=a;return h},z));if(aK){var
+bk=aK[1],bl=d(function(a){return pW(o,O,aA,l,a)},z),aL=h(aC(v),bl),W=function(a){var
+b=bY(o),c=d(function(a){var
+b=ef(l);return h(K,h(a[6],b)[2])},z),e=d(function(a){var
+b=ef(l);return d(K,h(a[6],b)[1])},z),f=a4(aL);return[0,[8,[0,aL,v(p),f,e,c,bk,bi,bj,b,a]]]};if(2<=o)return[0,W(1),0];var
+bm=[0,W(1),0];return[0,W(0),bm]}return xA}return xB}return xC}return xD}var
+bn=0,w=d(function(a){return a[1]},z);function
 Y(c,b,a){return[0,c,b,a,Z]}var
 G=0;if(typeof
 g==="number")var
-aS=v(p),s=[0,Y(h(aB(v),y),aS,t)];else
+aS=v(p),r=[0,Y(h(aC(v),w),aS,t)];else
 switch(g[0]){case
 0:var
-z=[5,[0,b,b],g[1]],H=Y;G=1;break;case
+y=[5,[0,a,a],g[1]],H=Y;G=1;break;case
 1:var
-aU=[5,[0,b,b],g[1]],z=aU,H=function(c,b,a){return[1,c,b,a]};G=1;break;case
+aU=[5,[0,a,a],g[1]],y=aU,H=function(c,b,a){return[1,c,b,a]};G=1;break;case
 2:var
-aV=kp(a,p,w,k,g),s=x(function(a){return[4,v(a)]},aV);break;case
+aV=kw(b,p,z,l,g),r=x(function(a){return[4,v(a)]},aV);break;case
 3:var
-aW=kp(a,p,w,k,g),s=x(function(a){return[4,v(a)]},aW);break;case
+aW=kw(b,p,z,l,g),r=x(function(a){return[4,v(a)]},aW);break;case
 5:var
-_=g[1],aX=au(a,[0,[0,_,_],d]),s=x(function(b){var
-c=P(a,b),d=v(p);return[2,h(aB(v),y),d,c]},aX);break;case
+_=g[1],aX=av(b,[0,[0,_,_],e]),r=x(function(a){var
+c=Q(b,a),d=v(p);return[2,h(aC(v),w),d,c]},aX);break;case
 6:var
-J=F(w,g[1]);if(J){var
-N=pC(w,k,g);if(N){var
-$=N[1],aa=i(a,1,g[2]),ab=aa?i(a,1,g[3]):aa;if(ab)var
-aY=v($[2]),aZ=v(J[1][1][2]),ac=[0,[5,[0,[0,[0,v($[1]),0],aZ],0],aY]];else
+L=F(z,g[1]);if(L){var
+M=pR(z,l,g);if(M){var
+$=M[1],aa=i(b,1,g[2]),ab=aa?i(b,1,g[3]):aa;if(ab)var
+aY=v($[2]),aZ=v(L[1][1][2]),ac=[0,[5,[0,[0,[0,v($[1]),0],aZ],0],aY]];else
 var
 ac=ab;var
 ae=ac}else
 var
-ae=N;var
+ae=M;var
 af=ae}else
 var
-af=J;var
-s=af;break;case
+af=L;var
+r=af;break;case
 7:var
-ag=g[3],ah=g[2],ai=g[1],aj=F(w,ai),aR=0;if(aj){var
-ak=i(a,1,ah),al=ak?i(a,1,ag):ak;if(al){var
-a0=[5,ah,ag],z=a0,H=function(c,b,a){return[3,ai,c,b,a,Z]};G=1;aR=1}else
+ag=g[3],ah=g[2],ai=g[1],aj=F(z,ai),aR=0;if(aj){var
+ak=i(b,1,ah),al=ak?i(b,1,ag):ak;if(al){var
+a0=[5,ah,ag],y=a0,H=function(c,b,a){return[3,ai,c,b,a,Z]};G=1;aR=1}else
 var
 am=al}else
 var
 am=aj;if(!aR)var
-s=am;break;case
+r=am;break;case
 8:var
-an=i(a,1,g[2]);if(an)var
-a1=g[1],a2=1,O=l(function(b){return i(a,a2,b)},a1);else
+an=i(b,1,g[2]);if(an)var
+a1=g[1],a2=1,N=k(function(a){return i(b,a2,a)},a1);else
 var
-O=an;if(O)var
-a3=L(a,b),a5=v(p),a6=hL(y,k),ao=[0,[0,h(aB(v),a6),a5,a3,0]];else
+N=an;if(N)var
+a3=J(b,a),a5=v(p),a6=hR(w,l),ap=[0,[0,h(aC(v),a6),a5,a3,0]];else
 var
-ao=O;var
-s=ao;break;case
+ap=N;var
+r=ap;break;case
 14:var
-ap=g[2],aq=g[1],Q=pG(o,I,p,w,k,aq,ap);if(Q){var
-ar=Q[1],at=ar[2],av=ar[1],aw=o0(aq,ap,g[3]),R=au(a,[0,[0,aw,aw],E]);if(R){var
-ax=R[1],ay=D(d,ax[1]);if(ay)var
-A=function(a){return op(K,a)},a7=A(at[2]),a8=A(at[1]),a9=A(av[2]),aA=[0,[9,[6,A(av[1]),a9,a8,a7,ax]]];else
+aq=g[2],ar=g[1],P=pV(o,I,p,z,l,ar,aq);if(P){var
+as=P[1],at=as[2],au=as[1],aw=pd(ar,aq,g[3]),R=av(b,[0,[0,aw,aw],E]);if(R){var
+ax=R[1],ay=D(e,ax[1]);if(ay)var
+A=function(a){return oE(K,a)},a7=A(at[2]),a8=A(at[1]),a9=A(au[2]),az=[0,[9,[6,A(au[1]),a9,a8,a7,ax]]];else
 var
-aA=ay;var
-aC=aA}else
+az=ay;var
+aB=az}else
 var
-aC=R;var
-aD=aC}else
+aB=R;var
+aD=aB}else
 var
-aD=Q;var
-s=aD;break;case
+aD=P;var
+r=aD;break;case
 15:var
-S=F(w,g[1]);if(S){var
-aE=i(a,1,g[4]);if(aE)var
-aF=i(a,0,g[2]),T=aF?i(a,0,g[3]):aF;else
+S=F(z,g[1]);if(S){var
+aE=i(b,1,g[4]);if(aE)var
+aF=i(b,0,g[2]),T=aF?i(b,0,g[3]):aF;else
 var
 T=aE;if(T)var
-B=h(S[1][5],0),a$=h(K,B[4]),ba=[0,[0,h(K,B[3]),a$]],bb=h(K,q(xd,k,n(d))),bc=h(K,q(0,k,n(d))),a_=0,bd=B[2],be=e(function(a){return e(K,a)},bd),U=[0,[9,[11,e(K,B[1]),be,bc,bb,ba,a_]]];else
+B=h(S[1][5],0),a$=h(K,B[4]),ba=[0,[0,h(K,B[3]),a$]],bb=h(K,q(xz,l,n(e))),bc=h(K,q(0,l,n(e))),a_=0,bd=B[2],be=d(function(a){return d(K,a)},bd),U=[0,[9,[11,d(K,B[1]),be,bc,bb,ba,a_]]];else
 var
 U=T}else
 var
 U=S;var
-s=U;break;default:var
-s=0}if(G)var
-aT=au(a,[0,[0,z,z],d]),s=x(function(b){var
-c=P(a,b),d=v(p);return H(h(aB(v),y),d,c)},aT);return[0,s,bn]},b7,E,ae,_));if(aC){var
-bc=aC[1];if(B[7])var
-b8=aS[2],b9=aS[1],b_=v(p),af=jY(bB,bc,[7,h(aB(v),ao),b_,b9,b8]);else
+r=U;break;default:var
+r=0}if(G)var
+aT=av(b,[0,[0,y,y],e]),r=x(function(a){var
+c=Q(b,a),d=v(p);return H(h(aC(v),w),d,c)},aT);return[0,r,bn]},b7,E,ae,$));if(aD){var
+bc=aD[1];if(B[7])var
+b8=aT[2],b9=aT[1],b_=v(p),af=j5(bB,bc,[7,h(aC(v),ap),b_,b9,b8]);else
 var
 af=bc;var
-bd=m(f(g(ba,bb)),k),be=bd?l(function(a){var
-b=pu(a);return l(function(a){return o7(k,aa,a)},b)},af):bd,bf=be?G?o7(k,aa,v(G[1])):1:be;if(bf){var
-b$=g(av[1],ay[1]),aD=g(at[1],b$),S=pL(aR),T=ks(E,B[2]),ab=S?e(function(a){var
-b=ps(k,T,a[2]),c=a[1];return[0,e(function(a){return ps(k,T,a)},c),b]},Y):S,aE=S?dd(kl(k,p,G,ab)):S,aG=dc(aE),ai=cS(aG),ca=kj(ai,ai,ab),cb=h(ai,bL(k,p)),aI=x(function(a){return h(ai,bL(k,a))},G),bg=J(S);if(bg)var
-ak=bg;else{var
-bp=m(f(Y),k);if(bp){var
-by=kl(k,p,G,ab),aN=l(function(a){var
-b=n(d);return a2(q(h(cS(aG),a),aG,b),a)},by);if(aN)var
-bz=kl(k,p,G,ab),al=l(function(a){var
-b=aA(0,k);return l(function(b){return e0(k,b,a)},b)},bz);else
+bd=m(f(g(ba,bb)),l),be=bd?k(function(a){var
+b=pJ(a);return k(function(a){return pk(l,aa,a)},b)},af):bd,bf=be?G?pk(l,aa,v(G[1])):1:be;if(bf){var
+b$=g(au[1],az[1]),aF=g(at[1],b$),S=p0(aS),T=kz(E,B[2]),ab=S?d(function(a){var
+b=pH(l,T,a[2]),c=a[1];return[0,d(function(a){return pH(l,T,a)},c),b]},Y):S,aG=S?dm(ks(l,p,G,ab)):S,aI=dl(aG),ai=cT(aI),ca=kq(ai,ai,ab),cb=h(ai,bN(l,p)),aJ=x(function(a){return h(ai,bN(l,a))},G),bg=L(S);if(bg)var
+aj=bg;else{var
+bp=m(f(Y),l);if(bp){var
+by=ks(l,p,G,ab),aN=k(function(a){var
+b=n(e);return a3(q(h(cT(aI),a),aI,b),a)},by);if(aN)var
+bz=ks(l,p,G,ab),al=k(function(a){var
+b=ax(0,l);return k(function(b){return e6(l,b,a)},b)},bz);else
 var
 al=aN;if(al){var
-aP=x(function(a){return bL(k,a)},G),am=bL(k,p),aM=po(am);if(aM)var
-bx=aA(0,Z),aQ=l(function(a){var
-b=d9(k,a,am),c=b?l(function(b){var
-d=b[2][2],e=g(y(kk,b[1]),d),f=O(k,a),c=l(function(a){return c0(f,a)},e);if(c){var
-h=b[2][1];return hN(am,O(k,a),h)}return c},ab):b;if(c){if(aP){var
-e=aP[1];return c0(O(k,a),e)}var
+aO=x(function(a){return bN(l,a)},G),am=bN(l,p),aM=pD(am);if(aM)var
+bx=ax(0,Z),aR=k(function(a){var
+b=ea(l,a,am),c=b?k(function(b){var
+d=b[2][2],e=g(y(kr,b[1]),d),f=P(l,a),c=k(function(a){return c4(f,a)},e);if(c){var
+h=b[2][1];return hT(am,P(l,a),h)}return c},ab):b;if(c){if(aO){var
+e=aO[1];return c4(P(l,a),e)}var
 d=1}else
 var
 d=c;return d},bx);else
 var
-aQ=aM;var
-an=aQ}else
+aR=aM;var
+an=aR}else
 var
 an=al;var
-ch=an?l(function(a){var
-c=a[1],b=l(function(a){return pt(k,aD,T,a)},c);return b?pt(k,aD,T,a[2]):b},Y):an,ak=ch}else
+ch=an?k(function(a){var
+c=a[1],b=k(function(a){return pI(l,aF,T,a)},c);return b?pI(l,aF,T,a[2]):b},Y):an,aj=ch}else
 var
-ak=bp}if(ak){var
-cc=e(function(a){return 1},af),cd=g(ba,bb),ce=function(p,P,ae,u,g){if(S){var
+aj=bp}if(aj){var
+cc=d(function(a){return 1},af),cd=g(ba,bb),ce=function(p,Q,ae,u,g){if(S){var
 j=function(W,i){if(typeof
 i!=="number"&&10===i[0]){var
 n=i[4],t=i[2],u=i[1];if(typeof
 u!=="number"&&6===u[0]){if(i[3])return 0;if(n){if(n[2])return 0;var
-v=n[1],g=u[1],A=jh(jc,e(as,t),T),B=A?1:A,C=B?eT(T):B,E=C?l(function(a){return aF(a,f(p))},T):C,F=E?m(f(v),k):E;if(F){var
-y=0;if(typeof
+v=n[1],g=u[1],A=jm(g1,d(ao,t),T),B=A?1:A,C=B?d3(T):B,E=C?k(function(a){return aE(a,f(p))},T):C,F=E?m(f(v),l):E;if(F){var
+z=0;if(typeof
 g!=="number")switch(g[0]){case
 0:var
-x=g[2],w=g[1],K=0;y=1;break;case
+y=g[2],x=g[1],K=0;z=1;break;case
 7:var
 M=g[2],o=g[1],R=0;if(typeof
 o!=="number"&&0===o[0]){var
-S=0;if(aI){var
-N=D(d,M);if(N){var
-x=o[2],w=o[1],K=[0,[0,[0,aI[1],M],g[3]]];y=1;R=1;S=1}else
+S=0;if(aJ){var
+O=D(e,M);if(O){var
+y=o[2],x=o[1],K=[0,[0,[0,aJ[1],M],g[3]]];z=1;R=1;S=1}else
 var
-O=N}else
+P=O}else
 var
-O=aI;if(!S)return O}if(!R)return 0;break}if(y){var
-U=j_(a,hk(t,0,p),aE,P),r=j_(a,p,aE,P),j=function(b,a){return q(a,b,wZ)},V=pq(function(a){return j(r,a)},K),X=j(r,cb),Y=function(a){return j(r,a)},_=[0,kj(function(a){return j(U,a)},Y,ca),X,V],ac=nI(t,p),aa=function(r){var
-n=ad(e(wX,r[1]));if(n){var
-o=r[2];if(o){var
-p=dx(r[3]);if(p){var
-aa=p[1],S=z(s(a,ae,o[1]),aa),ab=n[1],T=e(function(d){var
-b=hl(a,0,ac,d),c=aW(wY,b[2]);return[0,b[1],c]},ab);if(W){var
-t=W[1],u=t[1],y=u[1],A=y[1],B=u[2],C=t[2],E=jL(a,v),F=E[1],G=F[1],h=G[2],g=G[1],X=F[2],i=e(function(c){return aH(c,X,L(a,b))},h),I=m(f(h),k),K=I?m(f(A),k):I,M=K?D(d,B):K,N=M?g2(C,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):M,O=N?aF(g,k):N,P=O?J(H(q(g,h,d),d)):O;if(P){var
-Y=jD(a,g,i,k,Q(S),0),Z=jE(a,g,i,A,y[2],B,C,Y),j=jF(a,g,i,E[2],w,x,T,Z);if(j)return aX(a,k,j[1]);var
+P=aJ;if(!S)return P}if(!R)return 0;break}if(z){var
+U=kf(b,fS(t,0,p),aG,Q),s=kf(b,p,aG,Q),j=function(b,a){return q(a,b,xj)},V=pF(function(a){return j(s,a)},K),Y=j(s,cb),_=function(a){return j(s,a)},$=[0,kq(function(a){return j(U,a)},_,ca),Y,V],ac=nP(t,p),aa=function(s){var
+n=ad(d(xh,s[1]));if(n){var
+o=s[2];if(o){var
+p=dD(s[3]);if(p){var
+aa=p[1],S=w(r(b,ae,o[1]),aa),ab=n[1],T=d(function(d){var
+a=hr(b,0,ac,d),c=aP(xi,a[2]);return[0,a[1],c]},ab);if(W){var
+t=W[1],u=t[1],z=u[1],A=z[1],B=u[2],C=t[2],E=jS(b,v),F=E[1],G=F[1],h=G[2],g=G[1],Y=F[2],i=d(function(c){return aB(c,Y,J(b,a))},h),I=m(f(h),l),K=I?m(f(A),l):I,M=K?D(e,B):K,O=M?fG(C,c(2,c(2,c(2,c(2,c(2,c(2,a))))))):M,P=O?aE(g,l):O,Q=P?L(H(q(g,h,e),e)):P;if(Q){var
+Z=jG(b,g,i,l,N(S),0),_=jH(b,g,i,A,z[2],B,C,Z),j=jI(b,g,i,E[2],x,y,T,_);if(j)return aU(b,l,j[1]);var
 R=j}else
 var
-R=P;return R}var
-_=$([0,Q(S),0],k),l=jA(a,e(function(b){return L(a,b)},v),w,x,T,_);return l?aX(a,k,l[1]):l}var
+R=Q;return R}var
+$=X([0,N(S),0],l),k=jE(b,d(function(a){return J(b,a)},v),x,y,T,$);return k?aU(b,l,k[1]):k}var
 U=p}else
 var
 U=o;var
 V=U}else
 var
-V=n;return V};return h(ka(function(b,a){return wW},Z,k,aa),_)}var
+V=n;return V};return h(kh(function(b,a){return xg},Z,l,aa),$)}var
 G=0}else
 var
 G=F;var
 I=G}else
 var
-I=n;return I}return 0}return 0},n=m(u,Z),o=n?aF(0,Z):n;if(o){if(typeof
+I=n;return I}return 0}return 0},n=m(u,Z),o=n?aE(0,Z):n;if(o){if(typeof
 g!=="number"&&12===g[0]){var
-i=g[1],r=J(m(f(i),0));if(r){var
-t=N(jC(e(function(a){return a[1][1][1]},i)),i);return l(function(a){var
-b=a[2],c=b[1];return j([0,[0,[0,[0,a[1][1],a[1][2]],c[1][2]],c[2]]],b[2])},t)}return r}return j(0,g)}return o}return S},cf=v(p),cg=h(aB(v),Y);return f$(a,a0,a1,af,k,k,x(v,G),cg,cf,ce,aD,cd,cc,aR)}var
-bh=ak}else
+i=g[1],s=L(m(f(i),0));if(s){var
+t=M(jF(d(function(a){return a[1][1][1]},i)),i);return k(function(a){var
+b=a[2],c=b[1];return j([0,[0,[0,[0,a[1][1],a[1][2]],c[1][2]],c[2]]],b[2])},t)}return s}return j(0,g)}return o}return S},cf=v(p),cg=h(aC(v),Y);return gf(b,a0,a1,af,l,l,x(v,G),cg,cf,ce,aF,cd,cc,aS)}var
+bh=aj}else
 var
 bh=bf;var
 bi=bh}else
 var
-bi=aC;var
+bi=aD;var
 bj=bi}else
 var
-bj=ay;var
+bj=az;var
 bk=bj}else
 var
-bk=ax;var
+bk=ay;var
 bl=bk}else
 var
 bl=aw;var
 bm=bl}else
 var
-bm=av;var
+bm=au;var
 bn=bm}else
 var
 bn=at;var
 bo=bn}else
 var
-bo=ar;return bo}function
-ga(b,a){return bH(b,a[1],a[2])}function
-pM(b,a){var
-c=ga(b,a[1]),d=c?ga(b,a[2]):c;return d?ga(b,a[3]):d}function
-pN(a){return typeof
+bo=as;return bo}function
+gg(b,a){return bI(b,a[1],a[2])}function
+p1(b,a){var
+c=gg(b,a[1]),d=c?gg(b,a[2]):c;return d?gg(b,a[3]):d}function
+p2(a){return typeof
 a==="number"?0:0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-h0(a){return typeof
-a==="number"?a?d$(0):dX:d$(a[1])}function
-kt(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:bP(a):f9(b[1],a,c)}function
-h1(b,d,c){if(0===c[0])return hA(b,d[1],c[1]);var
+h6(a){return typeof
+a==="number"?a?ec(0):dY:ec(a[1])}function
+kA(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:bS(a):gd(b[1],a,c)}function
+h7(b,d,c){if(0===c[0])return hG(b,d[1],c[1]);var
 a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],f=g(bi(a[4],b),e),h=g(bi(a[3],b),f),i=g(bi(a[2],d[2]),h);return g(bi(a[1],d[1]),i)}function
-gb(b,a){if(b){var
-c=b[1],d=c[2];return bq(f8(c[1],a),d)}return a}function
-ku(P,o,a){function
-p(b){return ah(A,P,ao(a,b))}if(0===o[0]){var
+gh(b,a){if(b){var
+c=b[1],d=c[2];return bs(gc(c[1],a),d)}return a}function
+kB(P,o,b){function
+p(a){return ah(A,P,ar(b,a))}if(0===o[0]){var
 r=o[1];switch(r[0]){case
 0:var
-am=r[1][5],s=q(xm,a,n(d)),t=ao(a,0),Q=p(xn),f=nl(Q,dW(t),Q,s,am),U=[0,aO(s),0],V=[0,aO(ac(t,t)),U];return[0,f[1],f[2],f[3],[0,f[4]],[0,[0,f[2],s]],V];case
+am=r[1][5],s=q(xI,b,n(e)),t=ar(b,0),Q=p(xJ),f=ns(Q,dX(t),Q,s,am),U=[0,aQ(s),0],V=[0,aQ(ac(t,t)),U];return[0,f[1],f[2],f[3],[0,f[4]],[0,[0,f[2],s]],V];case
 1:var
-R=r[3],v=R?[0,ao(a,xo)]:R,S=p(0),g=nm(S,S,0);if(v)var
-B=v[1],D=[0,aO(ac(B,B)),0];else
+R=r[3],v=R?[0,ar(b,xK)]:R,S=p(0),g=nt(S,S,0);if(v)var
+B=v[1],D=[0,aQ(ac(B,B)),0];else
 var
 D=v;var
-W=g[4],Y=[0,[0,n(d),W]];return[0,g[1],g[2],g[3],[0,g[4]],Y,D];default:var
-w=ao(a,0),h=nn(P,dW(w)),Z=[0,aO(ac(w,w)),0];return[0,h[1],h[2],h[3],[0,h[4]],0,Z]}}var
-x=o[1][7],y=q(xp,a,n(d)),e=q(xq,a,n(d)),T=ao(a,xr),z=ao(a,0),j=p(xs),i=dW(z),k=ah(A,T,a_(ac(i,T),i)),l=dW(k),E=bt(i,l),F=ac(j,l),G=ac(j,E),_=ac(i,j),$=X(G),H=C(X(F),$),aa=X(_),I=A(X(y),aa),ab=u(n(c(2,b)),e),m=A(H,X(aj(C(H,A(X(e),I)),ab))),ad=hg(x,u(e,aO(m))),J=aj(F,e),K=hg(x,aj(G,e)),L=aj(I,X(e)),M=mO(0,J,K,L),N=hg(x,mO(1,J,K,L)),ae=a_(N,E),O=ah(A,j,a_(e,ah(C,a_(M,l),ae))),af=[0,aO(y),0],ag=[0,aO(e),af],ai=[0,aO(ac(k,k)),ag],ak=[0,aO(ac(z,z)),ai],al=bq(O,ad);return[0,O,u(X(e),m),al,[1,M,N],[0,[0,m,y]],ak]}function
-kv(b,c,a){if(0===c[0])switch(c[1][0]){case
-0:return h(b,ao(a,xt));case
-1:return h(b,ao(a,xu));default:var
-e=n(d),f=n(d);return[0,n(d),f,e]}return h(b,ao(a,xv))}function
-pO(a,c,b){return 0===c[0]?2===c[1][0]?h0(a):ah(C,h0(a),b):ah(C,h0(a),b)}function
-kw(j,c,i,h,b,g){if(b)var
-a=b[1],k=bG([0,d,d],h),n=O(g,f(h1(c,k,a))),o=b[2],p=kw(j,c,i,bx(h),o,n),l=cw(g,h1(c,k,a)),e=kv(i,a,l),m=[0,[0,ku(pO(j,a,e),a,l),e],p];else
+W=g[4],X=[0,[0,n(e),W]];return[0,g[1],g[2],g[3],[0,g[4]],X,D];default:var
+w=ar(b,0),h=nu(P,dX(w)),Y=[0,aQ(ac(w,w)),0];return[0,h[1],h[2],h[3],[0,h[4]],0,Y]}}var
+x=o[1][7],y=q(xL,b,n(e)),d=q(xM,b,n(e)),T=ar(b,xN),z=ar(b,0),j=p(xO),i=dX(z),k=ah(A,T,a$(ac(i,T),i)),l=dX(k),E=bv(i,l),F=ac(j,l),G=ac(j,E),Z=ac(i,j),$=_(G),H=C(_(F),$),aa=_(Z),I=A(_(y),aa),ab=u(n(c(2,a)),d),m=A(H,_(ak(C(H,A(_(d),I)),ab))),ad=hn(x,u(d,aQ(m))),J=ak(F,d),K=hn(x,ak(G,d)),L=ak(I,_(d)),M=mV(0,J,K,L),N=hn(x,mV(1,J,K,L)),ae=a$(N,E),O=ah(A,j,a$(d,ah(C,a$(M,l),ae))),af=[0,aQ(y),0],ag=[0,aQ(d),af],ai=[0,aQ(ac(k,k)),ag],aj=[0,aQ(ac(z,z)),ai],al=bs(O,ad);return[0,O,u(_(d),m),al,[1,M,N],[0,[0,m,y]],aj]}function
+kC(b,c,a){if(0===c[0])switch(c[1][0]){case
+0:return h(b,ar(a,xP));case
+1:return h(b,ar(a,xQ));default:var
+d=n(e),f=n(e);return[0,n(e),f,d]}return h(b,ar(a,xR))}function
+p3(a,c,b){return 0===c[0]?2===c[1][0]?h6(a):ah(C,h6(a),b):ah(C,h6(a),b)}function
+kD(j,c,i,h,b,g){if(b)var
+a=b[1],k=bz([0,e,e],h),n=P(g,f(h7(c,k,a))),o=b[2],p=kD(j,c,i,bp(h),o,n),l=cx(g,h7(c,k,a)),d=kC(i,a,l),m=[0,[0,kB(p3(j,a,d),a,l),d],p];else
 var
 m=b;return m}function
-kx(c,b,a){if(a){var
-e=a[2],f=kx(c,bx(b),e),h=a[1];return g(h1(c,bG([0,d,d],b),h),f)}return a}function
-pP(e,c,a,b){if(a)var
-g=a[1],h=h1(e,bG([0,d,d],c),g),j=O(b,f(h)),k=a[2],l=pP(e,bx(c),k,j),i=[0,[0,g,cw(b,h)],l];else
+kE(c,b,a){if(a){var
+d=a[2],f=kE(c,bp(b),d),h=a[1];return g(h7(c,bz([0,e,e],b),h),f)}return a}function
+p4(d,c,a,b){if(a)var
+g=a[1],h=h7(d,bz([0,e,e],c),g),j=P(b,f(h)),k=a[2],l=p4(d,bp(c),k,j),i=[0,[0,g,cx(b,h)],l];else
 var
 i=a;return i}function
-ky(a){if(typeof
+kF(a){if(typeof
 a==="number"){var
-c=n(d),e=n(d);return[0,n(d),e,c]}var
-b=a[1];return pi(b,bK(b))}function
-pQ(c,b,a){var
-d=hz(hD(c),a),f=N(hz(hD(c),b),d);return e(function(c){var
+c=n(e),d=n(e);return[0,n(e),d,c]}var
+b=a[1];return px(b,bM(b))}function
+p5(c,b,a){var
+e=hF(hJ(c),a),f=M(hF(hJ(c),b),e);return d(function(c){var
 d=u(a,c[1]);return A(u(b,c[2]),d)},f)}function
-pR(b,d,c,a){var
+p6(b,e,c,a){var
 f=y(function(a){var
 c=typeof
-a==="number"?0:0===a[0]?fV(b,a[1]):jT(b,pQ(b,a[1],a[2])),d=e(aK,c);return g(pN(a),d)},a),h=g(bI(c),f);return g(cP(d),h)}function
-pS(c,b,u,t,s,r,j,g,q,p,d,l,k,a){var
-n=au(c,[0,[0,a,a],g]);if(n){if(l){var
-v=l[1],w=n[1],o=ad(e(function(d){if(typeof
-d==="number")return 0;else{if(0===d[0])return jU(c,b,j,g,k,a,d[1]);var
-i=d[1],e=hM(c,[1,[5,k,a],U(g)]);if(e){var
-f=oq(c,b,j,g,a,jT(j,pQ(j,i,d[2])));if(f)var
-n=[0,e[1],f[1]],l=[0,[0,h(b,i),n]];else
+a==="number"?0:0===a[0]?f1(b,a[1]):j0(b,p5(b,a[1],a[2])),e=d(aH,c);return g(p2(a),e)},a),h=g(bK(c),f);return g(cQ(e),h)}function
+p7(c,b,u,t,s,r,g,e,q,p,k,l,j,a){var
+n=av(c,[0,[0,a,a],e]);if(n){if(l){var
+v=l[1],w=n[1],o=ad(d(function(d){if(typeof
+d==="number")return 0;else{if(0===d[0])return j1(c,b,g,e,j,a,d[1]);var
+k=d[1],f=hS(c,[1,[5,j,a],W(e)]);if(f){var
+i=oF(c,b,g,e,a,j0(g,p5(g,k,d[2])));if(i)var
+n=[0,f[1],i[1]],l=[0,[0,h(b,k),n]];else
 var
-l=f;var
+l=i;var
 m=l}else
 var
-m=e;return m}},d));if(o){var
-x=o[1];if(m(f(d),u)&&i(c,0,k)&&i(c,1,a))return e(function(a){var
-c=e(b,y(pN,d)),f=h(aB(b),p);return[0,[10,[0,e(function(a){return e(b,a)},q),f,c,x,r,w,v,t,a]]]},s);return xw}return xx}return xy}return xz}function
-pT(a){return typeof
+m=f;return m}},k));if(o){var
+x=o[1];if(m(f(k),u)&&i(c,0,j)&&i(c,1,a))return d(function(a){var
+c=d(b,y(p2,k)),e=h(aC(b),p);return[0,[10,[0,d(function(a){return d(b,a)},q),e,c,x,r,w,v,t,a]]]},s);return xS}return xT}return xU}return xV}function
+p8(a){return typeof
 a==="number"?a?0:1:a[1]}function
-pU(a){return[0,[0,[1,a]],[0,[1,[0,a]]],[0,[1,[0,[0,a]]]]]}function
-kz(d,c,a,b){return hT(pT(d),c,a,a,b)}function
-pV(g,f,e,d){if(0===f[0])switch(f[1][0]){case
+p9(a){return[0,[0,[1,a]],[0,[1,[0,a]]],[0,[1,[0,[0,a]]]]]}function
+kG(d,c,a,b){return hZ(p8(d),c,a,a,b)}function
+p_(g,f,e,d){if(0===f[0])switch(f[1][0]){case
 0:var
-a=g[6];if(a)var
-h=a[1],i=h[2],j=aj(i,aO(h[1])),m=X(j),o=u(j,C(e,u(aj(d,i),m))),k=[0,A(n(b),o)];else
+b=g[6];if(b)var
+h=b[1],i=h[2],j=ak(i,aQ(h[1])),m=_(j),o=u(j,C(e,u(ak(d,i),m))),k=[0,A(n(a),o)];else
 var
-k=a;return k;case
+k=b;return k;case
 1:var
 c=g[6];if(c)var
-p=aj(d,c[1][2]),l=[0,A(A(n(b),e),p)];else
+p=ak(d,c[1][2]),l=[0,A(A(n(a),e),p)];else
 var
 l=c;return l;default:return 0}return 0}function
-pW(c,b){var
+p$(c,b){var
 d=typeof
-c==="number"?0:1,a=J(d);return a?0===b[0]?1:0:a}function
-pX(a){return 0===a[0]?2===a[1][0]?1:0:0}function
-pY(c,b){function
-a(a){return q(a,b,n(d))}if(0===c[1][0]){var
-e=a(xF);return[0,a(0),e]}var
-f=a(xG),g=aj(a(xH),f),h=a(xI);return[0,aj(a(0),h),g]}function
-pZ(d,c,a){var
-b=a[1];return pO(d,b,kv(c,b,a[2]))}function
-p0(a,k,j,e,c){var
-l=c[1],f=pZ(a,k,c),m=kv(k,l,c[2]);function
-o(a){return ku(a,l,c[2])}function
-b(a){return[0,kd(a),0]}if(typeof
+c==="number"?0:1,a=L(d);return a?0===b[0]?1:0:a}function
+qa(a){return 0===a[0]?2===a[1][0]?1:0:0}function
+qb(c,b){function
+a(a){return q(a,b,n(e))}if(0===c[1][0]){var
+d=a(x1);return[0,a(0),d]}var
+f=a(x2),g=ak(a(x3),f),h=a(x4);return[0,ak(a(0),h),g]}function
+qc(d,c,a){var
+b=a[1];return p3(d,b,kC(c,b,a[2]))}function
+qd(a,k,j,d,c){var
+l=c[1],f=qc(a,k,c),m=kC(k,l,c[2]);function
+o(a){return kB(a,l,c[2])}function
+b(a){return[0,kk(a),0]}if(typeof
 a==="number")if(a)var
-t=[0,b(xC),0],g=[0,b(0),t];else
+t=[0,b(xY),0],g=[0,b(0),t];else
 var
-u=[0,b(xD),0],v=[0,b(xE),u],g=[0,b(0),v];else
+u=[0,b(xZ),0],v=[0,b(x0),u],g=[0,b(0),v];else
 var
-g=pc(a[1],m,j);var
-w=o(f)[3],h=o(pU(e))[3];if(pT(a))var
-i=kz(a,e,f,h[3]);else
+g=pr(a[1],m,j);var
+w=o(f)[3],h=o(p9(d))[3];if(p8(a))var
+i=kG(a,d,f,h[3]);else
 var
-r=n(d),s=n(d),i=[0,n(d),s,r];var
-p=kz(a,e,f,h[2]),q=[0,kz(a,e,f,h[1]),p,i];return ke(function(a,b){return pd(q,w,m,j,a,b)},g)}function
-p1(i,h,c,b){var
-j=b[1],k=pZ(i,h,b),d=pU(c),a=ku(d,j,b[2]),f=[0,a[3][1],[0,a[3][2],[0,a[3][3],[0,a[2],0]]]],g=bP(k);return e(function(a){return kc(c,g,a)},f)}function
-p2(b,i,f,d,c,a){if(a){var
-j=a[2],k=a[1],l=p2(b,i,f,d,g(c,[0,k,0]),j),m=h(d,e(bx,g(c,j)));return at(i,at(f,bG(b,k),m),l)}return b}function
-p3(a,f,e,d,c,b){if(c){var
-g=0,h=c[1];return p2(a,e,d,function(b){return p3(a,f,e,d,h,b)},g,b)}return b?a:f}function
-p4(a,d,c){var
-e=hG(a,c);function
-f(b,c){return s(a,b,c)}var
-g=L(a,b);return x(function(a){return p3(t,g,B,f,d,a)},e)}function
-kA(e,c,o,n){var
-a=p4(e,c,o);if(a){var
-f=a[1],b=p4(e,c,n);if(b){var
-g=b[1],h=I(d,f[1]),i=h?I(g[2],d):h;if(i)var
+r=n(e),s=n(e),i=[0,n(e),s,r];var
+p=kG(a,d,f,h[2]),q=[0,kG(a,d,f,h[1]),p,i];return kl(function(a,b){return ps(q,w,m,j,a,b)},g)}function
+qe(i,h,c,b){var
+j=b[1],k=qc(i,h,b),e=p9(c),a=kB(e,j,b[2]),f=[0,a[3][1],[0,a[3][2],[0,a[3][3],[0,a[2],0]]]],g=bS(k);return d(function(a){return kj(c,g,a)},f)}function
+qf(b,i,f,e,c,a){if(a){var
+j=a[2],k=a[1],l=qf(b,i,f,e,g(c,[0,k,0]),j),m=h(e,d(bp,g(c,j)));return au(i,au(f,bz(b,k),m),l)}return b}function
+qg(a,f,e,d,c,b){if(c){var
+g=0,h=c[1];return qf(a,e,d,function(b){return qg(a,f,e,d,h,b)},g,b)}return b?a:f}function
+qh(b,d,c){var
+e=hM(b,c);function
+f(a,c){return r(b,a,c)}var
+g=J(b,a);return x(function(a){return qg(t,g,B,f,d,a)},e)}function
+kH(d,c,o,n){var
+a=qh(d,c,o);if(a){var
+f=a[1],b=qh(d,c,n);if(b){var
+g=b[1],h=I(e,f[1]),i=h?I(g[2],e):h;if(i)var
 j=i;else{var
-m=I(f[2],d);if(m)return I(d,g[1]);var
+m=I(f[2],e);if(m)return I(e,g[1]);var
 j=m}var
 k=j}else
 var
@@ -5791,33 +5940,33 @@ k=b;var
 l=k}else
 var
 l=a;return l}function
-kB(b){if(b){var
+kI(b){if(b){var
 a=b[2],c=b[1];if(c){var
-e=c[2],q=c[1];if(e){var
-f=e[2],r=e[1];if(f){if(f[2])return n(d);if(a){var
+d=c[2],q=c[1];if(d){var
+f=d[2],r=d[1];if(f){if(f[2])return n(e);if(a){var
 g=a[2],h=a[1];if(h){var
 i=h[2],s=h[1];if(i){var
 j=i[2],t=i[1];if(j){var
-v=j[1];if(j[2])return n(d);if(g){var
+v=j[1];if(j[2])return n(e);if(g){var
 k=g[1];if(k){var
 l=k[2],w=k[1];if(l){var
 m=l[2],x=l[1];if(m){var
-y=m[1];if(m[2])return n(d);if(g[2])return n(d);var
-z=d2(s,t,w,x),B=u(f[1],z),D=u(r,d2(s,v,w,y));return C(A(u(q,d2(t,v,x,y)),D),B)}return n(d)}return n(d)}return n(d)}return n(d)}return n(d)}return n(d)}return n(d)}return n(d)}if(a){var
+y=m[1];if(m[2])return n(e);if(g[2])return n(e);var
+z=d5(s,t,w,x),B=u(f[1],z),D=u(r,d5(s,v,w,y));return C(A(u(q,d5(t,v,x,y)),D),B)}return n(e)}return n(e)}return n(e)}return n(e)}return n(e)}return n(e)}return n(e)}return n(e)}if(a){var
 o=a[1];if(o){var
-p=o[2];return p?p[2]?n(d):a[2]?n(d):d2(q,r,o[1],p[1]):n(d)}return n(d)}return n(d)}return n(d)}return n(d)}return n(d)}function
-p5(a){if(a){var
+p=o[2];return p?p[2]?n(e):a[2]?n(e):d5(q,r,o[1],p[1]):n(e)}return n(e)}return n(e)}return n(e)}return n(e)}return n(e)}function
+qi(a){if(a){var
 b=a[1][6];if(b)var
-c=p5(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=qi(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return xJ}function
-p6(g,k,a){function
-b(a){return q(a,k,n(d))}function
+d=b;return d}return x5}function
+qj(g,k,a){function
+b(a){return q(a,k,n(e))}function
 l(a){var
-e=a[2],f=u(X(b(0)),e),c=0,d=0,g=a[1];return[0,[0,by(function(b,a){return A(b,X(a))},g,f),d],c]}function
+e=a[2],f=u(_(b(0)),e),c=0,d=0,g=a[1];return[0,[0,bA(function(b,a){return A(b,_(a))},g,f),d],c]}function
 m(e){var
 a=e[6];if(a)var
-c=a[1],f=X(c[2]),g=u(X(b(0)),f),d=[0,[0,A(c[1],g),0],0];else
+c=a[1],f=_(c[2]),g=u(_(b(0)),f),d=[0,[0,A(c[1],g),0],0];else
 var
 d=a;return d}var
 j=0;if(typeof
@@ -5837,7 +5986,7 @@ d=a[1];return[0,[0,A(b(0),d),0],0]}return 0},f=v,c=a[1];break;case
 w=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-c=a[2],d=a[1],f=u(b(xK),c),g=[0,[0,A(u(b(xL),d),f),0],0],h=u(d,b(xM));return[0,[0,A(u(c,b(0)),h),0],g]}return 0},f=w,c=a[1];break;case
+c=a[2],d=a[1],f=u(b(x6),c),g=[0,[0,A(u(b(x7),d),f),0],0],h=u(d,b(x8));return[0,[0,A(u(c,b(0)),h),0],g]}return 0},f=w,c=a[1];break;case
 6:var
 x=function(a){var
 b=a[4];if(typeof
@@ -5853,120 +6002,120 @@ z=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return m(a);return 0},f=z,c=a[1];break;case
 12:var
-i=p5(g);if(i)var
-B=b(0),o=by(u,i[1],B),p=kB(e(function(a){return a[5]},g)),D=[0,bB(C(p,o)),0],r=[0,[0,A(p,o),D],0];else
+i=qi(g);if(i)var
+B=b(0),o=bA(u,i[1],B),p=kI(d(function(a){return a[5]},g)),D=[0,bC(C(p,o)),0],r=[0,[0,A(p,o),D],0];else
 var
 r=i;return r;case
 17:var
-s=a[1],f=function(d){var
-a=kB(e(function(a){return a[1]},g));function
+s=a[1],f=function(e){var
+a=kI(d(function(a){return a[1]},g));function
 b(b){var
-c=[0,bB(C(a,b)),0];return[0,A(a,b),c]}var
-f=kB(oI(s,k,e(function(a){return a[1]},g))),c=u(aO(d[2]),f),h=[0,b(bB(c)),0];return[0,b(c),h]},c=s;break;default:j=1}if(j)return 0;var
+c=[0,bC(C(a,b)),0];return[0,A(a,b),c]}var
+f=kI(oX(s,k,d(function(a){return a[1]},g))),c=u(aQ(e[2]),f),h=[0,b(bC(c)),0];return[0,b(c),h]},c=s;break;default:j=1}if(j)return 0;var
 h=F(g,c);return h?f(h[1]):h}function
-e6(a){return e(function(a){return[0,a[1],a[2]]},a)}function
-ed(a){return e(function(a){var
-c=n(b);return[0,a[3],c]},a)}function
-p7(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bI(hL(e6(c),b));return cP(p6(c,b,a))}function
-p8(g,m,k,K,J,u,a){if(typeof
-a==="number")return[0,[0,[0,t]],0];else
-switch(a[0]){case
+fa(a){return d(function(a){return[0,a[1],a[2]]},a)}function
+eg(b){return d(function(b){var
+c=n(a);return[0,b[3],c]},b)}function
+qk(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bK(hR(fa(c),b));return cQ(qj(c,b,a))}function
+ql(g,m,l,L,K,u,b){if(typeof
+b==="number")return[0,[0,[0,t]],0];else
+switch(b[0]){case
 0:var
-M=[5,[0,b,b],a[1]],n=M,o=function(a){return[0,a]};break;case
+M=[5,[0,a,a],b[1]],n=M,o=function(a){return[0,a]};break;case
 1:var
-Q=[5,[0,b,b],a[1]],n=Q,o=function(a){return[1,a]};break;case
+P=[5,[0,a,a],b[1]],n=P,o=function(a){return[1,a]};break;case
 5:var
-B=a[1],U=0,V=au(g,[0,[0,B,B],d]);return[0,x(function(a){return[2,P(g,a)]},V),U];case
+B=b[1],U=0,V=av(g,[0,[0,B,B],e]);return[0,x(function(a){return[2,Q(g,a)]},V),U];case
 7:var
-C=a[3],D=a[2],E=a[1];if(!F(k,E))return xP;var
+C=b[3],D=b[2],E=b[1];if(!F(l,E))return x$;var
 I=0;if(i(g,1,D)&&i(g,1,C))var
 W=[5,D,C],n=W,o=function(a){return[7,E,a]};else
-I=1;if(I)return xO;break;case
+I=1;if(I)return x_;break;case
 8:var
-G=i(g,1,a[2]),X=0;if(G)var
-Y=a[1],Z=1,q=l(function(a){return i(g,Z,a)},Y);else
+G=i(g,1,b[2]),X=0;if(G)var
+Y=b[1],Z=1,q=k(function(a){return i(g,Z,a)},Y);else
 var
 q=G;if(q)var
-_=L(g,b),$=hL(e6(k),u),H=[0,[4,h(aB(m),$),_]];else
+_=J(g,a),$=hR(fa(l),u),H=[0,[4,h(aC(m),$),_]];else
 var
 H=q;return[0,H,X];default:var
-s=0;if(typeof
-a==="number")s=1;else
-switch(a[0]){case
+r=0;if(typeof
+b==="number")r=1;else
+switch(b[0]){case
 4:var
-v=a[3],w=a[2],y=i(g,1,[3,v,w]),S=y?i(g,1,[3,[2,w,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b]],v]):y,j=S;break;case
+v=b[3],w=b[2],y=i(g,1,[3,v,w]),S=y?i(g,1,[3,[2,w,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a]],v]):y,j=S;break;case
 17:var
-A=i(g,1,a[3]);if(A)var
-T=e(function(a){return a[1]},k),j=oJ(f(a[2]),T);else
+A=i(g,1,b[3]);if(A)var
+T=d(function(a){return a[1]},l),j=oY(f(b[2]),T);else
 var
 j=A;break;case
 6:case
 9:var
-z=i(g,1,a[2]),j=z?i(g,0,a[3]):z;break;default:s=1}if(s)var
+z=i(g,1,b[2]),j=z?i(g,0,b[3]):z;break;default:r=1}if(r)var
 j=1;var
-p=j?p6(k,u,a):j;if(p){var
-R=[0,p[1],p[2]];return e(function(a){if(a){var
+p=j?qj(l,u,b):j;if(p){var
+R=[0,p[1],p[2]];return d(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
 e=h(m,b[1]);return[0,[5,h(m,c),e]]}var
 d=[0,[3,h(m,c)]]}else
 var
-d=a;return d},R)}return xN}var
-N=0,O=au(g,[0,[0,n,n],hK(K,J)]);return[0,x(function(a){return o(P(g,a))},O),N]}function
-p9(a){if(typeof
+d=a;return d},R)}return x9}var
+N=0,O=av(g,[0,[0,n,n],hQ(L,K)]);return[0,x(function(a){return o(Q(g,a))},O),N]}function
+qm(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-p_(a){return 0===a[0]?2===a[1][0]?0:1:1}function
-xQ(k,Z,aR,j,r,A,aQ){var
-a=j[1],_=ap(a),B=j[6],s=kx(r,A,j[2]),$=j[3],v=[0,[0,$,$],r],aa=[0,f(s)],K=j[2],w=K?0===K[1][0]?0:1:K,aS=j[5],z=x(function(b){var
+qn(a){return 0===a[0]?2===a[1][0]?0:1:1}function
+ya(l,Z,aR,j,r,A,aQ){var
+b=j[1],_=as(b),B=j[6],s=kE(r,A,j[2]),$=j[3],v=[0,[0,$,$],r],aa=[0,f(s)],K=j[2],w=K?0===K[1][0]?0:1:K,aS=j[5],z=x(function(a){var
 c=typeof
-a==="number"?0:bV(a[1]);return o9(b,c)},aS),aU=j[2],aT=0,aV=bR(v,f(s)),aN=kw(a,r,function(a){return gb(z,a)},A,aU,aT),p=e(function(f){var
-g=f[2],b=f[1];function
-e(b){return kt(a,b,bq(bt(g,b),aV))}var
-h=b[1],i=bt(ah(C,h0(a),g),h),j=kt(a,b[1],i),c=b[1],d=typeof
-a==="number"?1:0,k=b[6],l=b[5],m=d?a?[0,c[1],[0,c[2],0]]:bP(c):d,n=b[4],o=e(b[3]),p=b[2];return[0,e(b[1]),p,o,n,m,l,k,j]},aN);function
-ab(b){var
-c=0,g=j[2],h=kw(a,r,function(b){if(typeof
-a==="number")return gb(z,b);var
-c=gb(z,b);return pj(ky(a),c)},A,g,c),d=ec(b),k=bR(v,f(s));return e(function(e){var
-b=e[1][3];if(typeof
-a==="number")return kt(a,b,bq(bt(e[2],b),k));var
-f=bt(e[2],b),g=ah(C,f,bt(f,ky(a))),c=a_(kf(ky(a)),g),h=u(c[3],d),i=u(c[2],d),j=[0,u(c[1],d),i,h];return f9(a[1],b,j)},h)}function
-ac(l){return e(function(m){var
-o=n(b),d=m[3],p=ec(l),q=bR(v,f(s));if(typeof
-a==="number")var
-i=d;else
+b==="number"?0:bY(b[1]);return pm(a,c)},aS),aU=j[2],aT=0,aV=bU(v,f(s)),aN=kD(b,r,function(a){return gh(z,a)},A,aU,aT),p=d(function(f){var
+g=f[2],a=f[1];function
+e(a){return kA(b,a,bs(bv(g,a),aV))}var
+h=a[1],i=bv(ah(C,h6(b),g),h),j=kA(b,a[1],i),c=a[1],d=typeof
+b==="number"?1:0,k=a[6],l=a[5],m=d?b?[0,c[1],[0,c[2],0]]:bS(c):d,n=a[4],o=e(a[3]),p=a[2];return[0,e(a[1]),p,o,n,m,l,k,j]},aN);function
+ab(a){var
+c=0,g=j[2],h=kD(b,r,function(a){if(typeof
+b==="number")return gh(z,a);var
+c=gh(z,a);return py(kF(b),c)},A,g,c),e=ef(a),k=bU(v,f(s));return d(function(d){var
+a=d[1][3];if(typeof
+b==="number")return kA(b,a,bs(bv(d[2],a),k));var
+f=bv(d[2],a),g=ah(C,f,bv(f,kF(b))),c=a$(km(kF(b)),g),h=u(c[3],e),i=u(c[2],e),j=[0,u(c[1],e),i,h];return gd(b[1],a,j)},h)}function
+ac(l){return d(function(m){var
+o=n(a),e=m[3],p=ef(l),q=bU(v,f(s));if(typeof
+b==="number")var
+i=e;else
 var
-h=a[1],j=az(bV(h),d),k=e(function(a){return u(a,u(u(n(c(2,b)),q),p))},j),i=g(aq(bV(h),d),k);return[0,i,o]},p)}var
-ae=e(function(a){return a[4]},p),af=pP(r,A,j[2],0);function
+h=b[1],j=aw(bY(h),e),k=d(function(b){return u(b,u(u(n(c(2,a)),q),p))},j),i=g(ap(bY(h),e),k);return[0,i,o]},p)}var
+ae=d(function(a){return a[4]},p),af=p4(r,A,j[2],0);function
 aW(d,c){if(typeof
 c!=="number")switch(c[0]){case
 15:var
-q=c[1],r=f(s),y=bR(v,f(s)),t=function(a){return gb(z,a)},i=F(p,q);if(i){var
+q=c[1],r=f(s),y=bU(v,f(s)),t=function(a){return gh(z,a)},i=F(p,q);if(i){var
 j=F(af,q);if(j){var
-b=j[1],n=i[1],e=b[1],k=pY(b,d),l=k[2],m=k[1];if(pW(a,e)){var
-h=pV(n,e,m,l),u=h?[0,h[1],0]:h;return u}if(pX(e))return 0;var
-w=g([0,m,[0,l,0]],p1(a,t,r,b)),x=g(cP(p0(a,t,y,r,b)),w);return g(n[3],x)}var
+a=j[1],n=i[1],e=a[1],k=qb(a,d),l=k[2],m=k[1];if(p$(b,e)){var
+h=p_(n,e,m,l),u=h?[0,h[1],0]:h;return u}if(qa(e))return 0;var
+w=g([0,m,[0,l,0]],qe(b,t,r,a)),x=g(cQ(qd(b,t,y,r,a)),w);return g(n[3],x)}var
 o=j}else
 var
 o=i;return o;case
 16:var
-A=ac(d);return pR(s,ab(d),A,ae)}return p7(p,d,c)}var
-ai=y(function(a){return a[7]},p),aj=j[7],ak=aj?e(function(a){return[0,a[8],a[2]]},p):aj,aX=bI(ak),aY=g(ai,g(du(aW,w,r,aa,B),aX)),aZ=g(bI(ed(p)),aY),al=g(bI(e6(p)),aZ),am=dd(al),an=dc(am),o=cS(an);function
+A=ac(d);return p6(s,ab(d),A,ae)}return qk(p,d,c)}var
+ai=y(function(a){return a[7]},p),aj=j[7],ak=aj?d(function(a){return[0,a[8],a[2]]},p):aj,aX=bK(ak),aY=g(ai,g(dA(aW,w,r,aa,B),aX)),aZ=g(bK(eg(p)),aY),al=g(bK(fa(p)),aZ),am=dm(al),an=dl(am),o=cT(an);function
 a0(g,c){if(typeof
 c!=="number")switch(c[0]){case
 15:var
-M=c[1],Y=c[4],Z=c[3],$=c[2],N=f(s),aa=bR(v,f(s)),O=function(a){return gb(z,a)},n=F(p,M),X=0;if(n){var
+M=c[1],Y=c[4],Z=c[3],$=c[2],N=f(s),aa=bU(v,f(s)),O=function(a){return gh(z,a)},n=F(p,M),X=0;if(n){var
 q=F(af,M);if(q){var
-E=i(k,1,Y);if(E)var
-G=i(k,0,$),t=G?i(k,0,Z):G;else
+E=i(l,1,Y);if(E)var
+G=i(l,0,$),t=G?i(l,0,Z):G;else
 var
 t=E;if(t){var
-d=q[1],H=n[1],m=d[1],B=pY(d,g),C=B[2],D=B[1];if(pW(a,m))var
-Q=pV(H,m,D,C),u=x(function(a){return[3,h(o,a)]},Q);else
-if(pX(m))var
+e=q[1],H=n[1],m=e[1],B=qb(e,g),C=B[2],D=B[1];if(p$(b,m))var
+Q=p_(H,m,D,C),u=x(function(a){return[3,h(o,a)]},Q);else
+if(qa(m))var
 u=0;else
 var
-R=e(o,p1(a,O,N,d)),T=h(o,C),U=h(o,D),S=0,V=p0(a,O,aa,N,d),W=e(function(a){return e(o,a)},V),u=[0,[11,e(o,H[3]),W,U,T,S,R]];var
+R=d(o,qe(b,O,N,e)),T=h(o,C),U=h(o,D),S=0,V=qd(b,O,aa,N,e),W=d(function(a){return d(o,a)},V),u=[0,[11,d(o,H[3]),W,U,T,S,R]];var
 y=u}else
 var
 y=t}else
@@ -5977,70 +6126,70 @@ var
 I=n;return[0,I,X];case
 16:var
 A=c[3],ad=j[2];if(typeof
-a==="number")var
+b==="number")var
 P=1;else
 var
-J=i(k,1,A),K=J?cA(k,A):J,P=K?l(p_,ad):K;if(P){var
+K=i(l,1,A),L=K?cB(l,A):K,P=L?k(qn,ad):L;if(P){var
 ag=c[2],ah=c[1],ai=typeof
-a==="number"?[0,L(k,b)]:h(cz(k),A),aj=ac(g),ak=ab(g),al=typeof
-a==="number"?xA:xB,am=typeof
-a==="number"?ap(a):bV(a[1]);return pS(k,o,_,am,al,w,s,r,ak,aj,ae,ai,ah,ag)}return xR}return p8(k,o,p,w,r,g,c)}var
-ao=l(function(a){var
-b=n(d);return a2(q(h(o,a),an,b),a)},al),ar=ao?ag(p9,B):ao;if(ar){var
-as=j[4];if(typeof
-a==="number")var
-at=a?kr(0,eW(as)):1;else
+b==="number"?[0,J(l,a)]:h(cA(l),A),aj=ac(g),ak=ab(g),al=typeof
+b==="number"?xW:xX,am=typeof
+b==="number"?as(b):bY(b[1]);return p7(l,o,_,am,al,w,s,r,ak,aj,ae,ai,ah,ag)}return yb}return ql(l,o,p,w,r,g,c)}var
+ao=k(function(a){var
+b=n(e);return a3(q(h(o,a),an,b),a)},al),aq=ao?ag(qm,B):ao;if(aq){var
+ar=j[4];if(typeof
+b==="number")var
+at=b?ky(0,e2(ar)):1;else
 var
-aO=eW(as),at=kr(a[1],aO);var
+aO=e2(ar),at=ky(b[1],aO);var
 M=at}else
 var
-M=ar;if(M){var
+M=aq;if(M){var
 W=j[1];if(typeof
 W==="number")var
 D=j[5]?0:1;else
 if(2<=W[1])var
 D=0;else{var
 H=j[5],V=0;if(H){var
-X=i(k,1,j[3]);if(X)var
-aP=hS(H[1]),D=l(function(a){var
-b=cA(k,a[1]);return b?cA(k,a[2]):b},aP);else{var
+X=i(l,1,j[3]);if(X)var
+aP=hY(H[1]),D=k(function(a){var
+b=cB(l,a[1]);return b?cB(l,a[2]):b},aP);else{var
 Y=X;V=1}}else{var
 Y=H;V=1}if(V)var
 D=Y}var
 N=D}else
 var
 N=M;if(N)var
-a1=j[2],O=l(function(a){var
-b=0===a[0]?0:1;return cM(b,w)},a1);else
+a1=j[2],O=k(function(a){var
+b=0===a[0]?0:1;return cN(b,w)},a1);else
 var
 O=N;if(O){var
-av=J(j[7]);if(av)var
-E=av;else
+au=L(j[7]);if(au)var
+E=au;else
 var
-aL=pn(k,a,j[5]),E=aL?l(p_,j[2]):aL}else
+aL=pC(l,b,j[5]),E=aL?k(qn,j[2]):aL}else
 var
 E=O;if(E){var
-a3=g(s,[0,v,0]),P=ad(e(function(a){return au(k,a)},a3));if(P){var
-a4=y(function(a){return f6(w,r,a)},B),Q=ad(e(function(a){return hM(k,a)},a4));if(Q){var
-t=eW(j[4]),a5=typeof
-a==="number"?a?[0,t[1],[0,t[2],0]]:[0,t[1],[0,t[2],[0,t[3],0]]]:pJ(a[1],t),R=ad(e(function(a){return au(k,[0,a,r])},a5));if(R){var
-aw=R[1],ax=j[5];if(ax)var
-a6=o$(ax[1]),G=ad(e(function(a){return pb(k,a)},a6));else
+a2=g(s,[0,v,0]),P=ad(d(function(a){return av(l,a)},a2));if(P){var
+a4=y(function(a){return ga(w,r,a)},B),Q=ad(d(function(a){return hS(l,a)},a4));if(Q){var
+t=e2(j[4]),a5=typeof
+b==="number"?b?[0,t[1],[0,t[2],0]]:[0,t[1],[0,t[2],[0,t[3],0]]]:pY(b[1],t),R=ad(d(function(a){return av(l,[0,a,r])},a5));if(R){var
+ax=R[1],ay=j[5];if(ay)var
+a6=po(ay[1]),G=ad(d(function(a){return pq(l,a)},a6));else
 var
-G=xS;if(G){var
-ay=G[1],I=j[5],a7=I?o_(I[1]):I,S=ad(e(cz(k),a7));if(S){var
-T=ad(du(a0,w,r,aa,B));if(T){var
+G=yc;if(G){var
+az=G[1],I=j[5],a7=I?pn(I[1]):I,S=ad(d(cA(l),a7));if(S){var
+T=ad(dA(a0,w,r,aa,B));if(T){var
 aA=T[1];if(j[7])var
-a8=Z[2],a9=Z[1],U=jY(aR,aA,[8,h(aB(o),ak),a9,a8]);else
+a8=Z[2],a9=Z[1],U=j5(aR,aA,[8,h(aC(o),ak),a9,a8]);else
 var
 U=aA;var
-aC=m(f(g(aw,ay)),_);if(aC){var
-a$=jO(U),ba=g(aw,ay),aM=0,bb=j[4];if(typeof
-a==="number"&&!a){var
-aD=function(a){return ot(k,bb,r,a)};aM=1}if(!aM)var
+aB=m(f(g(ax,az)),_);if(aB){var
+a_=jV(U),ba=g(ax,az),aM=0,bb=j[4];if(typeof
+b==="number"&&!b){var
+aD=function(a){return oI(l,bb,r,a)};aM=1}if(!aM)var
 aD=function(a){return 0};var
-bc=g(Q[1],S[1]),bd=g(P[1],bc),be=e(o,ai),bf=ed(p),bg=h(aB(o),bf),bh=e6(p);return fi(jN(k,am,h(aB(o),bh),bg,be,bd,U,aD),ba,a$,aQ)}var
-aE=aC}else
+bc=g(Q[1],S[1]),bd=g(P[1],bc),be=d(o,ai),bf=eg(p),bg=h(aC(o),bf),bh=fa(p);return fm(jU(l,am,h(aC(o),bh),bg,be,bd,U,aD),ba,a_,aQ)}var
+aE=aB}else
 var
 aE=T;var
 aF=aE}else
@@ -6061,142 +6210,142 @@ aJ=P;var
 aK=aJ}else
 var
 aK=E;return aK}function
-xT(b){if(0===b[0])return[0,oE(b[1])];var
-a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bS(a[4]),g=bS(a[3]),h=bS(a[2]);return[1,[0,bS(a[1]),h,g,f,e,d,c]]}function
-p$(e,d,c){var
+yd(b){if(0===b[0])return[0,oT(b[1])];var
+a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bV(a[4]),g=bV(a[3]),h=bV(a[2]);return[1,[0,bV(a[1]),h,g,f,e,d,c]]}function
+qo(e,d,c){var
 a=d;for(;;){if(a){var
-b=a[1];if(tW(b[1],c))return b[2];var
+b=a[1];if(ua(b[1],c))return b[2];var
 a=a[2];continue}return e}}function
-kC(a,c,b){var
-d=N(e(as,a[2]),b);return g(N(a[1],c),d)}function
-cc(c){var
+kJ(a,c,b){var
+e=M(d(ao,a[2]),b);return g(M(a[1],c),e)}function
+cf(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
-b=a[1];return[0,[0,[0,b,b],d],0];case
+b=a[1];return[0,[0,[0,b,b],e],0];case
 1:return 0;case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-e=cc(a[2]);return g(cc(a[1]),e)}}function
-bW(e,a,c){switch(a[0]){case
+d=cf(a[2]);return g(cf(a[1]),d)}}function
+bZ(d,b,c){switch(b[0]){case
 0:var
-o=a[1];return bR([0,[0,o,o],d],c);case
+o=b[1];return bU([0,[0,o,o],e],c);case
 1:var
-q=a[1];return p$(n(d),e,q);case
-2:return bB(bW(e,a[1],c));case
+q=b[1];return qo(n(e),d,q);case
+2:return bC(bZ(d,b[1],c));case
 3:var
-i=a[2],g=a[1],h=C;break;case
+i=b[2],g=b[1],h=C;break;case
 4:var
-i=a[2],g=a[1],h=A;break;case
+i=b[2],g=b[1],h=A;break;case
 5:var
-i=a[2],g=a[1],h=u;break;case
+i=b[2],g=b[1],h=u;break;case
 6:var
-i=a[2],g=a[1],h=aj;break;case
+i=b[2],g=b[1],h=ak;break;case
 7:var
-j=fB(a[2]),k=bW(e,a[1],c);if(j){if(j[1]){var
-l=X(k),p=function(a){return u(a,l)},m=gT(aU(ms(j)),p,l);return mr(j)?m:u(m,k)}return k}return n(b);default:return aO(bW(e,a[1],c))}var
-r=bW(e,i,O(c,f(cc(g))));return h(bW(e,g,c),r)}function
-dy(c,h,b){var
+j=fF(b[2]),k=bZ(d,b[1],c);if(j){if(j[1]){var
+l=_(k),p=function(a){return u(a,l)},m=g0(aY(my(j)),p,l);return mx(j)?m:u(m,k)}return k}return n(a);default:return aQ(bZ(d,b[1],c))}var
+r=bZ(d,i,P(c,f(cf(g))));return h(bZ(d,g,c),r)}function
+dE(c,h,b){var
 a=h;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=O(b,f(cc(e))),l=dy(c,a[2],k),m=g(dy(c,e,b),l);return[0,bW(c,a,b),m];case
+e=a[1],k=P(b,f(cf(e))),l=dE(c,a[2],k),m=g(dE(c,e,b),l);return[0,bZ(c,a,b),m];case
 8:var
-n=dy(c,a[1],b);return[0,bW(c,a,b),n];case
+n=dE(c,a[1],b);return[0,bZ(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],i=O(b,f(cc(d))),j=dy(c,a[2],i);return g(dy(c,d,b),j)}}function
-qa(i,h,g){var
+d=a[1],i=P(b,f(cf(d))),j=dE(c,a[2],i);return g(dE(c,d,b),j)}}function
+qp(i,h,g){var
 b=i,a=h,c=g;for(;;){if(a){var
-d=a[1],e=d[2],j=O(c,f(cc(e))),k=a[2],l=bW(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
-kD(c,a,b){if(a){var
-e=a[1],d=e[2],h=O(b,f(cc(d))),i=a[2],j=bW(c,d,b),k=kD([0,[0,e[1],j],c],i,h);return g(dy(c,d,b),k)}return a}function
-gc(a){return y(cc,a)}function
-qb(c,a,b){if(a)var
-d=a[1],g=O(b,f(cc(d))),h=qb(c,a[2],g),e=[0,bW(c,d,b),h];else
+d=a[1],e=d[2],j=P(c,f(cf(e))),k=a[2],l=bZ(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
+kK(c,a,b){if(a){var
+e=a[1],d=e[2],h=P(b,f(cf(d))),i=a[2],j=bZ(c,d,b),k=kK([0,[0,e[1],j],c],i,h);return g(dE(c,d,b),k)}return a}function
+gi(a){return y(cf,a)}function
+qq(c,a,b){if(a)var
+d=a[1],g=P(b,f(cf(d))),h=qq(c,a[2],g),e=[0,bZ(c,d,b),h];else
 var
 e=a;return e}function
-qc(c,a,b){if(a){var
-d=a[1],e=O(b,f(cc(d))),h=qc(c,a[2],e);return g(dy(c,d,b),h)}return a}function
-h2(a){return 0===a[0]?gc(a[1]):cc(a[1])}function
-kE(c,b,a){if(b){var
-d=b[1],j=O(a,f(h2(d))),k=kE(c,b[2],j);if(0===d[0])var
-h=qc(c,d[1],a);else
+qr(c,a,b){if(a){var
+d=a[1],e=P(b,f(cf(d))),h=qr(c,a[2],e);return g(dE(c,d,b),h)}return a}function
+h8(a){return 0===a[0]?gi(a[1]):cf(a[1])}function
+kL(c,b,a){if(b){var
+d=b[1],j=P(a,f(h8(d))),k=kL(c,b[2],j);if(0===d[0])var
+h=qr(c,d[1],a);else
 var
-e=d[1],i=dy(c,e,a),h=[0,bW(c,e,a),i];return g(h,k)}return b}function
-h3(c){var
+e=d[1],i=dE(c,e,a),h=[0,bZ(c,e,a),i];return g(h,k)}return b}function
+h9(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=b6(h3,a)}return[0,b]}function
-kF(c){var
+b=b9(h9,a)}return[0,b]}function
+kM(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=kF(a[2]);return u(kF(a[1]),d);case
-9:return a[1];default:return X(b)}}}function
-kG(m,h,a,g){if(a){var
-c=a[1],x=O(g,f(h2(c))),y=kG(m,h,a[2],x);if(0===c[0])var
-k=qb(h,c[1],g),o=[0,k,n(b),k,0,0,0,0,0];else
+d=kM(a[2]);return u(kM(a[1]),d);case
+9:return a[1];default:return _(b)}}}function
+kN(m,h,b,g){if(b){var
+c=b[1],x=P(g,f(h8(c))),y=kN(m,h,b[2],x);if(0===c[0])var
+k=qq(h,c[1],g),o=[0,k,n(a),k,0,0,0,0,0];else
 var
-l=bW(h,c[1],g),q=h3(l),i=bh(aA(0,m),q),d=h3(i[2]),j=e(h3,i[1]),r=0,s=0,t=0,u=0,v=[0,l],w=e(function(a){return a2(a,d)?n(b):aj(a,d)},j),o=[0,j,kF(d),w,v,u,t,s,r];var
+l=bZ(h,c[1],g),q=h9(l),i=bh(ax(0,m),q),e=h9(i[2]),j=d(h9,i[1]),r=0,s=0,t=0,u=0,v=[0,l],w=d(function(b){return a3(b,e)?n(a):ak(b,e)},j),o=[0,j,kM(e),w,v,u,t,s,r];var
 p=[0,o,y]}else
 var
-p=a;return p}function
-kH(a){return e(function(a){return[0,a[2],d]},a)}function
-kI(a){var
-b=y(h2,a[4]),c=g(gc(e(aK,a[3])),b);return g(kH(a[2]),c)}function
-h4(a){var
-b=cw(0,kH(a[2])),c=aA(0,f(a[1]));return kC(a,e(function(a){return[0,[0,a]]},c),b)}function
-kJ(b,d){var
+p=b;return p}function
+kO(a){return d(function(a){return[0,a[2],e]},a)}function
+kP(a){var
+b=y(h8,a[4]),c=g(gi(d(aH,a[3])),b);return g(kO(a[2]),c)}function
+h_(a){var
+b=cx(0,kO(a[2])),c=ax(0,f(a[1]));return kJ(a,d(function(a){return[0,[0,a]]},c),b)}function
+kQ(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return ag(function(a){return aJ(e,a)},b);case
+e=a[1];return ag(function(a){return aM(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=kJ(b,a[1]);if(c){var
+c=kQ(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-qd(d){var
+qs(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=J(ag(function(b){return function(a){return tW(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=L(ag(function(b){return function(a){return ua(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-qe(a){var
-u=e(as,a[2]),d=g(a[1],u),h=f(a[1]),o=ae(xW,h),p=o?ae(h,xX):o,q=p?ae(h,f(a[4])):p,r=q?ae(f(a[4]),xY):q,s=r?qd(d):r;if(s){var
-c=d,b=a[3];for(;;){if(b){var
-j=b[1],k=j[1],m=J(ag(function(b){return function(a){return aJ(b,a)}}(k),c)),n=m?kJ(c,j[2]):m;if(n){var
-c=[0,k,c],b=b[2];continue}var
+qt(a){var
+u=d(ao,a[2]),e=g(a[1],u),h=f(a[1]),o=ae(yg,h),p=o?ae(h,yh):o,q=p?ae(h,f(a[4])):p,r=q?ae(f(a[4]),yi):q,s=r?qs(e):r;if(s){var
+c=e,b=a[3];for(;;){if(b){var
+j=b[1],l=j[1],m=L(ag(function(b){return function(a){return aM(b,a)}}(l),c)),n=m?kQ(c,j[2]):m;if(n){var
+c=[0,l,c],b=b[2];continue}var
 t=n}else
 var
 t=1;var
 i=t;break}}else
 var
 i=s;if(i){var
-v=a[4];return l(function(b){var
-c=0===b[0]?b[1]:[0,b[1],0],f=g(e(as,a[3]),d);return l(function(a){return kJ(f,a)},c)},v)}return i}function
-ee(f,e,g){var
-h=g[1],a=b6(function(a){return ee(f,e,a)},h);switch(a[0]){case
-0:return q(a[1],f,[0,d,b]);case
-1:return q(a[1],e,[0,d,b]);case
-2:return[0,a[1],b];case
-3:return[2,a[1],a[2]];case
-4:return[3,a[1],a[2]];case
-5:return[3,[0,d,b],a[1]];case
-6:return[4,a[1],a[2]];case
-7:return[5,a[1],a[2]];case
+v=a[4];return k(function(b){var
+c=0===b[0]?b[1]:[0,b[1],0],f=g(d(ao,a[3]),e);return k(function(a){return kQ(f,a)},c)},v)}return i}function
+eh(f,d,g){var
+h=g[1],b=b9(function(a){return eh(f,d,a)},h);switch(b[0]){case
+0:return q(b[1],f,[0,e,a]);case
+1:return q(b[1],d,[0,e,a]);case
+2:return[0,b[1],a];case
+3:return[2,b[1],b[2]];case
+4:return[3,b[1],b[2]];case
+5:return[3,[0,e,a],b[1]];case
+6:return[4,b[1],b[2]];case
+7:return[5,b[1],b[2]];case
 8:var
-c=a[1];return[4,c,c];case
-9:return[6,a[1]];default:return[0,d,b]}}function
-kK(d){var
+c=b[1];return[4,c,c];case
+9:return[6,b[1]];default:return[0,e,a]}}function
+kR(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 10:return 0;case
@@ -6207,103 +6356,103 @@ b=a[1];continue;case
 0:case
 1:case
 2:return 1;default:var
-c=kK(a[1]);if(c){var
+c=kR(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-cd(g,f,e){var
+cg(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=dq(g,b[1],a[1]);if(c){var
+c=dw(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-xZ(a){var
+yj(a){var
 b=a[4],d=0;if(typeof
 b!=="number"&&0===b[0]){var
 c=[0,b[1],0];d=1}if(!d)var
 c=0;var
 e=g(a[3],c);return g(a[1],e)}function
-h5(a){return f(a[1])}function
-qf(a){var
-b=f(gc(e(aK,a[3])));return O(f(a[2]),b)}function
-qg(a){var
-b=f(a[2]),c=a[3];return qa(h4(a),c,b)}function
-qh(a){var
-b=qf(a),c=a[4],d=qg(a);return kG(h5(a),d,c,b)}function
-qi(a,b){var
-c=y(h2,a[4]),d=g(gc(e(aK,a[3])),c);return g(b,e(function(a){return a[1][1]},d))}function
-qj(b,a){return l(function(a){if(0===a[0]){var
-c=h5(b);return m(f(a[1]),c)}return 1},a)}function
-kL(f,e){function
-a(a){return q(a,e,[0,d,b])}var
-c=[0,d,b];switch(f){case
+h$(a){return f(a[1])}function
+qu(a){var
+b=f(gi(d(aH,a[3])));return P(f(a[2]),b)}function
+qv(a){var
+b=f(a[2]),c=a[3];return qp(h_(a),c,b)}function
+qw(a){var
+b=qu(a),c=a[4],d=qv(a);return kN(h$(a),d,c,b)}function
+qx(a,b){var
+c=y(h8,a[4]),e=g(gi(d(aH,a[3])),c);return g(b,d(function(a){return a[1][1]},e))}function
+qy(b,a){return k(function(a){if(0===a[0]){var
+c=h$(b);return m(f(a[1]),c)}return 1},a)}function
+kS(f,d){function
+b(b){return q(b,d,[0,e,a])}var
+c=[0,e,a];switch(f){case
 0:var
-g=a(x1);return[0,a(0),g,c];case
+g=b(yl);return[0,b(0),g,c];case
 1:var
-h=a(x2),i=a(x3);return[0,a(0),i,h];default:return[0,c,c,c]}}function
-kM(f,e){function
-a(a){return q(a,e,[0,d,b])}var
-c=[0,d,b];switch(f){case
-0:return[0,c,c,a(x4)];case
+h=b(ym),i=b(yn);return[0,b(0),i,h];default:return[0,c,c,c]}}function
+kT(f,d){function
+b(b){return q(b,d,[0,e,a])}var
+c=[0,e,a];switch(f){case
+0:return[0,c,c,b(yo)];case
 1:var
-g=a(x5),h=a(x6);return[0,a(x7),h,g];default:var
-i=a(x8),j=a(x9);return[0,a(0),j,i]}}function
-qk(t,s,k,j,r,d){var
+g=b(yp),h=b(yq);return[0,b(yr),h,g];default:var
+i=b(ys),j=b(yt);return[0,b(0),j,i]}}function
+qz(t,s,k,j,r,d){var
 c=bl(k,j,r,d);if(0===d[0])var
-e=bJ(d[1],c);else
+e=bL(d[1],c);else
 var
-a=d[1],f=f2(a,c),g=f3(a,c),h=f4(a,c),i=d5(a,c),l=S([3,[4,h,g],[4,i,f]],f1(a)),m=S([2,[4,h,f],[4,i,g]],eX(a)),n=M(function(b,a){return[2,b,a]},m,l),o=S(a[5],n),p=hH(a,c),q=S(hI(a,c),p),e=M(function(b,a){return[3,b,a]},q,o);return kg(t,e,S([5,[0,b,b],s],cy(eb(k,j,ea(d)),e)))}function
-ql(c,b,a){return b?f5(c,b[1],a):a?0:1}function
-qm(d,b,i,a,c,o,h,n,g){var
-p=ap(b),j=m(f(c),p),k=j?ql(d,a,h):j,l=k?ql(d,a,g):k;if(l){var
-q=e(function(c){return qk(b,i,a,g,n,c)},c),r=e(function(c){return qk(b,i,a,h,o,c)},c);return kA(d,ap(b),r,q)}return l}function
-qn(c,j,d,b,a){var
-e=aF(d,j),f=e?bp(b,a):e;if(f)var
-k=cV(c,a)[2],h=[0,cV(c,b)[1],k],l=[0,cV(c,dQ(a,b)),0],i=[0,[0,h,h,g($(t,d),l)]];else
+b=d[1],f=f8(b,c),g=f9(b,c),h=f_(b,c),i=d8(b,c),l=T([3,[4,h,g],[4,i,f]],f7(b)),m=T([2,[4,h,f],[4,i,g]],e3(b)),n=O(function(b,a){return[2,b,a]},m,l),o=T(b[5],n),p=hN(b,c),q=T(hO(b,c),p),e=O(function(b,a){return[3,b,a]},q,o);return kn(t,e,T([5,[0,a,a],s],cz(ee(k,j,ed(d)),e)))}function
+qA(c,b,a){return b?f$(c,b[1],a):a?0:1}function
+qB(e,b,i,a,c,o,h,n,g){var
+p=as(b),j=m(f(c),p),k=j?qA(e,a,h):j,l=k?qA(e,a,g):k;if(l){var
+q=d(function(c){return qz(b,i,a,g,n,c)},c),r=d(function(c){return qz(b,i,a,h,o,c)},c);return kH(e,as(b),r,q)}return l}function
+qC(c,j,d,b,a){var
+e=aE(d,j),f=e?bq(b,a):e;if(f)var
+k=cW(c,a)[2],h=[0,cW(c,b)[1],k],l=[0,cW(c,dR(a,b)),0],i=[0,[0,h,h,g(X(t,d),l)]];else
 var
 i=f;return i}function
-kN(a){if(a){var
+kU(a){if(a){var
 b=a[1];if(b)var
-c=kN(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=kU(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return ya}function
-qo(c,b,a){if(b){if(a){var
-d=b[1],f=qo(c,b[2],a[2]),g=a[1],h=function(b,a){return z(s(c,d,b),a)},i=function(a){return a};return aL(function(a){return s(c,d,a)},i,h,g,f)}var
+d=b;return d}return yw}function
+qD(c,b,a){if(b){if(a){var
+d=b[1],f=qD(c,b[2],a[2]),g=a[1],h=function(b,a){return w(r(c,d,b),a)},i=function(a){return a};return aJ(function(a){return r(c,d,a)},i,h,g,f)}var
 e=a}else
 var
 e=b;return e}function
-qp(c,b,a){if(b){if(a){var
-d=qp(c,b[2],a[2]);return z(s(c,b[1],a[1]),d)}return t}return t}function
-h6(a){return am(function(d,a){var
-e=c(2,b);return G(cm(bO(d),e),a)},d,a)}function
-h7(a,i,h){var
-d=f(i);function
+qE(c,b,a){if(b){if(a){var
+d=qE(c,b[2],a[2]);return w(r(c,b[1],a[1]),d)}return t}return t}function
+ia(b){return an(function(d,b){var
+e=c(2,a);return G(cp(bQ(d),e),b)},e,b)}function
+ib(b,i,h){var
+e=f(i);function
 u(g,e,f){var
-d=[0,b,c(2,b)];return[0,_(cV(a,bb(dP(e,f),d)))]}var
-j=kN(e(function(b){return eJ(a,u,b)},i));if(j){var
-v=j[1],w=function(b,c,e){return qn(a,d,b,c,e)},k=kN(e(function(b){return eJ(a,w,b)},i));if(k){var
-x=function(b){return cV(a,b)},o=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),A=e(function(b){return qp(a,b,e(function(a){return a[2]},v))},o),C=N(aA(0,d),o),F=e(function(c){var
-i=qo(a,c[2],z),j=c[1],d=[0,L(a,b),0],e=g($(t,j),d);function
-f(b,a){return B(b,an(a))}function
-h(a){return Q(an(a))}return aL(function(a){return a},h,f,e,i)},C),p=m(f(h),d),q=p?l(function(a){return m(f(a),d)},h):p;if(q)var
-G=c(2,b),H=cm(cQ(a),G),I=h6(A),n=D(E(c(2,c(2,b)),I),H);else
+d=[0,a,c(2,a)];return[0,R(cW(b,bb(dQ(e,f),d)))]}var
+j=kU(d(function(a){return eO(b,u,a)},i));if(j){var
+v=j[1],w=function(a,c,d){return qC(b,e,a,c,d)},l=kU(d(function(a){return eO(b,w,a)},i));if(l){var
+x=function(a){return cW(b,a)},o=d(function(a){return d(x,a)},h),y=l[1],z=d(function(a){return a[3]},y),A=d(function(a){return qE(b,a,d(function(a){return a[2]},v))},o),C=M(ax(0,e),o),F=d(function(c){var
+i=qD(b,c[2],z),j=c[1],d=[0,J(b,a),0],e=g(X(t,j),d);function
+f(b,a){return B(b,aj(a))}function
+h(a){return N(aj(a))}return aJ(function(a){return a},h,f,e,i)},C),p=m(f(h),e),q=p?k(function(a){return m(f(a),e)},h):p;if(q)var
+G=c(2,a),H=cp(cR(b),G),I=ia(A),n=D(E(c(2,c(2,a)),I),H);else
 var
 n=q;if(n){var
-J=c(2,b),K=cm(cQ(a),J),M=h6(cP(F));return D(E(c(2,c(2,b)),M),K)}var
+K=c(2,a),L=cp(cR(b),K),O=ia(cQ(F));return D(E(c(2,c(2,a)),O),L)}var
 r=n}else
 var
-r=k;var
+r=l;var
 s=r}else
 var
 s=j;return s}function
-e7(a){return l(function(a){return J(dU(a))},a)}function
-a3(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+fb(a){return k(function(a){return L(dV(a))},a)}function
+a5(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 bc(a){return[0,a[1],a[2]]}function
-h8(b,a){var
+ic(b,a){var
 d=f(a),c=m(f(b),d);if(c){var
-e=N(b,a);return l(function(a){return bp(a[1],a[2])},e)}return c}function
-kO(c,a,b){var
-d=N(a,b),g=N(aA(c,f(a)),d);return e(function(a){return[1,a[1],a[2][1],a[2][2]]},g)}function
-e8(e,k,j,h){var
+e=M(b,a);return k(function(a){return bq(a[1],a[2])},e)}return c}function
+kV(c,a,b){var
+e=M(a,b),g=M(ax(c,f(a)),e);return d(function(a){return[1,a[1],a[2][1],a[2][2]]},g)}function
+fc(e,k,j,h){var
 c=k,b=j,a=h;for(;;){if(c)if(b)if(a){var
 f=a[1],l=i(e,1,[3,bc(c[1]),f]),g=l||i(e,1,[3,f,bc(b[1])]);if(!g){var
 c=c[2],b=b[2],a=a[2];continue}var
@@ -6314,34 +6463,34 @@ var
 d=b;else
 var
 d=c;return d}}function
-kP(b,e,c){var
-a=eJ(b,function(a,c,d){return qn(b,e,a,c,d)},c);return a?I(d,a[1][2][1]):a}function
-kQ(f,e,b,a){var
-c=a[1],d=b[1],g=c[2],h=a[2],i=d[2],j=b[2],k=[0,d[1],[0,c[1],0]];return l(function(a){var
-b=[0,i,[0,g,0]];return l(function(b){var
-c=[0,j,[0,h,0]];return l(function(c){var
-d=bc(c),g=bc(b);return cY(f,e,[0,bc(a),g,d])},c)},b)},k)}function
-kR(a){switch(a[0]){case
+kW(b,d,c){var
+a=eO(b,function(a,c,e){return qC(b,d,a,c,e)},c);return a?I(e,a[1][2][1]):a}function
+kX(f,e,b,a){var
+c=a[1],d=b[1],g=c[2],h=a[2],i=d[2],j=b[2],l=[0,d[1],[0,c[1],0]];return k(function(a){var
+b=[0,i,[0,g,0]];return k(function(b){var
+c=[0,j,[0,h,0]];return k(function(c){var
+d=bc(c),g=bc(b);return c2(f,e,[0,bc(a),g,d])},c)},b)},l)}function
+kY(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=g(a3(a[3]),c),e=g(a3(a[2]),d);return g(a3(a[1]),e);case
+c=[0,a[4],0],d=g(a5(a[3]),c),e=g(a5(a[2]),d);return g(a5(a[1]),e);case
 1:var
-b=a[3],f=b?a3(b[1]):b,h=g(a3(a[2]),f);return g(a3(a[1]),h);default:return a3(a[1])}}function
-qq(a){return 1===a[0]?0:1}function
-gd(b,a){var
-c=bb(a,a);return bp(bb(b,b),c)?a:b}function
-ge(b,a,e,d){var
-c=d8(b,a,bc(e));return c?d8(b,a,bc(d)):c}function
-qr(f,e,c,a){switch(e[0]){case
-0:if(c){if(c[2])return 0;if(a)return a[2]?0:ge(f,e[1],c[1],a[1]);var
-x=a}else
+b=a[3],f=b?a5(b[1]):b,h=g(a5(a[2]),f);return g(a5(a[1]),h);default:return a5(a[1])}}function
+qF(a){return 1===a[0]?0:1}function
+gj(b,a){var
+c=bb(a,a);return bq(bb(b,b),c)?a:b}function
+gk(b,a,e,d){var
+c=d$(b,a,bc(e));return c?d$(b,a,bc(d)):c}function
+qG(f,d,c,b){switch(d[0]){case
+0:if(c){if(c[2])return 0;if(b)return b[2]?0:gk(f,d[1],c[1],b[1]);var
+x=b}else
 var
 x=c;return x;case
 1:if(c){var
 i=c[2];if(i){var
-j=i[2];if(j){if(j[2])return 0;if(a){var
-k=a[2];if(k){var
+j=i[2];if(j){if(j[2])return 0;if(b){var
+k=b[2];if(k){var
 l=k[2];if(l){if(l[2])return 0;var
-y=ge(f,e[1],c[1],a[1]),z=y?ge(f,e[2],i[1],k[1]):y;if(z)return ge(f,e[3],j[1],l[1]);var
+y=gk(f,d[1],c[1],b[1]),z=y?gk(f,d[2],i[1],k[1]):y;if(z)return gk(f,d[3],j[1],l[1]);var
 A=z}else
 var
 A=l;var
@@ -6350,7 +6499,7 @@ var
 B=k;var
 u=B}else
 var
-u=a}else
+u=b}else
 var
 u=j;var
 C=u}else
@@ -6361,16 +6510,16 @@ var
 D=c;return D;case
 2:if(c){var
 m=c[2];if(m){var
-n=m[2];if(n){if(n[2])return 0;if(a){var
-o=a[2];if(o){var
+n=m[2];if(n){if(n[2])return 0;if(b){var
+o=b[2];if(o){var
 p=o[2];if(p){if(p[2])return 0;var
-P=[0,bc(gd(n[1],p[1])),0],Q=[0,bc(gd(m[1],o[1])),P];return f5(f,e,[0,bc(gd(c[1],a[1])),Q])}var
+P=[0,bc(gj(n[1],p[1])),0],Q=[0,bc(gj(m[1],o[1])),P];return f$(f,d,[0,bc(gj(c[1],b[1])),Q])}var
 E=p}else
 var
 E=o;var
 v=E}else
 var
-v=a}else
+v=b}else
 var
 v=n;var
 F=v}else
@@ -6380,14 +6529,14 @@ G=F}else
 var
 G=c;return G;default:if(c){var
 q=c[2];if(q){var
-r=q[2];if(r){if(r[2])return 0;if(a){var
-s=a[2];if(s){var
+r=q[2];if(r){if(r[2])return 0;if(b){var
+s=b[2];if(s){var
 t=s[2];if(t){if(t[2])return 0;var
-g=t[1],h=r[1],N=0,R=0;if(bp(h,[0,d,b])&&bp([0,d,b],g))var
-H=[0,d,b];else
+g=t[1],h=r[1],N=0,R=0;if(bq(h,[0,e,a])&&bq([0,e,a],g))var
+H=[0,e,a];else
 N=1;if(N)var
-O=bb(g,g),H=bp(bb(h,h),O)?h:g;var
-S=[0,bc(H),R],T=[0,bc(gd(q[1],s[1])),S],I=f5(f,e,[0,bc(gd(c[1],a[1])),T]);if(I)return ge(f,dt(e[2]),h,g);var
+O=bb(g,g),H=bq(bb(h,h),O)?h:g;var
+S=[0,bc(H),R],T=[0,bc(gj(q[1],s[1])),S],I=f$(f,d,[0,bc(gj(c[1],b[1])),T]);if(I)return gk(f,dz(d[2]),h,g);var
 J=I}else
 var
 J=t;var
@@ -6396,7 +6545,7 @@ var
 K=s;var
 w=K}else
 var
-w=a}else
+w=b}else
 var
 w=r;var
 L=w}else
@@ -6405,79 +6554,79 @@ L=q;var
 M=L}else
 var
 M=c;return M}}function
-qs(a){var
-c=q(ye,a,[0,d,b]),e=q(yf,a,[0,d,b]);return[0,q(0,a,[0,d,b]),e,c]}function
-h9(a){var
-c=q(yg,a,[0,d,b]),e=q(yh,a,[0,d,b]);return[0,[0,q(0,a,[0,d,b]),e],c]}function
-kS(d,c,b,a){var
-e=ca(d,c,b,a);return v(ca(d,c,b,a),e)}var
-c1=c(2,c(2,c(2,c(2,c(2,r(c(2,b)))))));function
-ef(e){var
-a=aD(c1,e);if(a){var
-f=h(gV(c(2,b)),c1);return[0,a[1][2],f]}return[0,d,b]}var
-kT=[0,[0,d,b],[0,d,b],[0,d,b]];function
-e9(c,a){var
-e=[0,d,b];return am(function(b,a){return[2,h(c,b),a]},e,a)}function
-gf(b,a){return am(function(c,a){var
-d=h(b,c);return M(function(b,a){return[2,b,a]},d,a)},kT,a)}function
-qt(c){var
+qH(b){var
+c=q(yA,b,[0,e,a]),d=q(yB,b,[0,e,a]);return[0,q(0,b,[0,e,a]),d,c]}function
+id(b){var
+c=q(yC,b,[0,e,a]),d=q(yD,b,[0,e,a]);return[0,[0,q(0,b,[0,e,a]),d],c]}function
+kZ(d,c,b,a){var
+e=cd(d,c,b,a);return v(cd(d,c,b,a),e)}var
+c5=c(2,c(2,c(2,c(2,c(2,s(c(2,a)))))));function
+ei(d){var
+b=aF(c5,d);if(b){var
+f=h(g3(c(2,a)),c5);return[0,b[1][2],f]}return[0,e,a]}var
+k0=[0,[0,e,a],[0,e,a],[0,e,a]];function
+fd(c,b){var
+d=[0,e,a];return an(function(b,a){return[2,h(c,b),a]},d,b)}function
+gl(b,a){return an(function(c,a){var
+d=h(b,c);return O(function(b,a){return[2,b,a]},d,a)},k0,a)}function
+qI(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return aF(a[1],dV);case
+1:return aE(a[1],dW);case
 6:var
 a=a[1];continue;default:var
-b=qt(a[1]);if(b){var
+b=qI(a[1]);if(b){var
 a=a[2];continue}return b}}function
-dz(a){return l(qt,a)}function
-kU(d,h,c,f){var
-a=eJ(d,function(c,e,f){var
-a=aF(c,O(dV,h)),b=a?bp(e,f):a,g=b?[0,m0(d,c,e,f)]:b;return g},f);if(a){var
-b=a[1],e=az(dV,b[3]),g=ji(h6(az(c,e))),i=ji(h6(aq(c,e))),j=U(G(G(g_(aq(dV,b[3])),i),g));return I(b[1][2],j)}return a}function
-h_(b,a,c){if(b)if(a)var
-f=a[1],g=h_(b[2],a[2],c),h=I(b[1],d)?[3,f,c]:[2,f,c],e=[0,h,g];else
+dF(a){return k(qI,a)}function
+k1(d,h,c,f){var
+a=eO(d,function(c,e,f){var
+a=aE(c,P(dW,h)),b=a?bq(e,f):a,g=b?[0,m7(d,c,e,f)]:b;return g},f);if(a){var
+b=a[1],e=aw(dW,b[3]),g=jn(ia(aw(c,e))),i=jn(ia(ap(c,e))),j=W(G(G(hf(ap(dW,b[3])),i),g));return I(b[1][2],j)}return a}function
+ie(b,a,c){if(b)if(a)var
+f=a[1],g=ie(b[2],a[2],c),h=I(b[1],e)?[3,f,c]:[2,f,c],d=[0,h,g];else
 var
-e=a;else
+d=a;else
 var
-e=b;return e}function
-h$(a){return x(function(a){var
-d=h(gV(c(2,b)),c1);return[0,a[2],d]},a)}function
-cC(b,a){var
-c=g4(a);return[1,O(dV,b),c,a]}function
-eg(a){if(cs(a[1],a[2]))return a[1];var
-d=[0,c(2,b),b];return[5,[2,a[1],a[2]],d]}function
-bM(a){var
-b=eg(a[3]),c=eg(a[2]);return[0,eg(a[1]),c,b]}function
-qu(a){switch(a[0]){case
+d=b;return d}function
+ig(b){return x(function(b){var
+d=h(g3(c(2,a)),c5);return[0,b[2],d]},b)}function
+cD(b,a){var
+c=g$(a);return[1,P(dW,b),c,a]}function
+ej(b){if(ct(b[1],b[2]))return b[1];var
+d=[0,c(2,a),a];return[5,[2,b[1],b[2]],d]}function
+bO(a){var
+b=ej(a[3]),c=ej(a[2]);return[0,ej(a[1]),c,b]}function
+qJ(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=eg(b[4]),e=bM(b[3]),f=bM(b[2]);return[0,bM(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=ej(b[4]),e=bO(b[3]),f=bO(b[2]);return[0,bO(b[1]),f,e,d,c];case
 1:var
-g=x(bM,a[3]),h=bM(a[2]);return[1,bM(a[1]),h,g];default:return[2,bM(a[1])]}}function
-gg(h,g,p,a,Q,o){var
-x=fW(h,g,p,a),y=x?dz(a3(a)):x;if(y){var
+g=x(bO,a[3]),h=bO(a[2]);return[1,bO(a[1]),h,g];default:return[2,bO(a[1])]}}function
+gm(h,g,p,b,Q,o){var
+x=f2(h,g,p,b),y=x?dF(a5(b)):x;if(y){var
 q=F(g[3],Q);if(q){var
 j=q[1];if(typeof
 j!=="number"&&14===j[0]){var
-B=j[2],C=j[1],r=h$(aD(c1,B));if(r){var
-s=r[1],R=cC(yo,s),T=cC(yp,s),t=[0,cC(0,s),T,R],D=i(h,1,B),E=D?i(h,0,C):D;if(E)var
+B=j[2],C=j[1],r=ig(aF(c5,B));if(r){var
+s=r[1],R=cD(yK,s),S=cD(yL,s),t=[0,cD(0,s),S,R],D=i(h,1,B),E=D?i(h,0,C):D;if(E)var
 U=f(g[1]),u=m(f(o),U);else
 var
 u=E;var
-G=u?l(function(a){return dz(kR(a))},p):u;if(G){var
-V=g[1],H=h_(o,e(function(b){return cZ(qu(b),a)},V),C),I=dz(H);if(I){var
-w=N(N(p,H),o),k=function(k){var
-f=k[1][2],e=k[1][1];switch(e[0]){case
+G=u?k(function(a){return dF(kY(a))},p):u;if(G){var
+V=g[1],H=ie(o,d(function(a){return c3(qJ(a),b)},V),C),I=dF(H);if(I){var
+w=M(M(p,H),o),l=function(k){var
+f=k[1][2],d=k[1][1];switch(d[0]){case
 0:var
-i=e[4],l=S(f,aE(e[1])),m=aS(e[2],e[3],a),g=M(function(b,a){return[3,b,a]},m,l),n=S([0,c(2,b),b],g);return[0,[3,v(g,g),[4,i,i]],n,[0,b,b]];case
+i=d[4],l=T(f,aG(d[1])),m=aW(d[2],d[3],b),g=O(function(b,a){return[3,b,a]},m,l),n=T([0,c(2,a),a],g);return[0,[3,v(g,g),[4,i,i]],n,[0,a,a]];case
 1:var
-h=aS(e[1],e[2],a),o=S([0,c(2,b),b],h);return[0,[3,v(h,h),[4,f,f]],o,[0,b,b]];default:var
-j=e[1],p=aE(j);return[0,[3,v(aE(j),a),f],p,[0,d,b]]}},n=function(j){var
+h=aW(d[1],d[2],b),o=T([0,c(2,a),a],h);return[0,[3,v(h,h),[4,f,f]],o,[0,a,a]];default:var
+j=d[1],p=aG(j);return[0,[3,v(aG(j),b),f],p,[0,e,a]]}},n=function(j){var
 e=j[1],f=e[2],c=e[1],d=j[2];switch(c[0]){case
 0:var
-g=c[3],h=c[2],i=c[1],k=aS(h,g,a),l=[3,v(aE(i),k),f],m=b_(i,h,g,c[4],a);return ef([5,[0,d,b],[2,cx(c[5],m),l]]);case
-1:return ef([5,[0,d,b],[2,f,cZ(c,a)]]);default:return[0,d,b]}},L=v(t,t),O=[4,e9(function(a){var
-b=k(a)[3];return[4,n(a),b]},w),L],P=v(gf(function(a){var
-b=k(a)[2];return S(n(a),b)},w),t);return kU(h,yr,yq,[2,[2,e9(function(a){var
-b=k(a)[1];return[4,n(a),b]},w),P],O])}var
+g=c[3],h=c[2],i=c[1],k=aW(h,g,b),l=[3,v(aG(i),k),f],m=cb(i,h,g,c[4],b);return ei([5,[0,d,a],[2,cy(c[5],m),l]]);case
+1:return ei([5,[0,d,a],[2,f,c3(c,b)]]);default:return[0,d,a]}},L=v(t,t),N=[4,fd(function(a){var
+b=l(a)[3];return[4,n(a),b]},w),L],P=v(gl(function(a){var
+b=l(a)[2];return T(n(a),b)},w),t);return k1(h,yN,yM,[2,[2,fd(function(a){var
+b=l(a)[1];return[4,n(a),b]},w),P],N])}var
 J=I}else
 var
 J=G;var
@@ -6490,137 +6639,137 @@ z=q;var
 A=z}else
 var
 A=y;return A}function
-ys(a){var
-b=dz(a3(a[3])),c=b?dz(a3(a[4])):b;return c?dz([0,a[2],0]):c}function
-qv(a,d,c){var
-b=aA(0,bK(a));return e(function(b){var
-e=aF(b,bV(a))?d:c;return cC(b,e)},b)}function
-qw(e,a,f){if(typeof
-e==="number"){if(e){var
-g=cC(yt,a);return[0,[0,cC(0,a),g,[0,d,b]],kT]}var
-h=cC(yu,a),i=cC(yv,a);return[0,[0,cC(0,a),i,h],kT]}var
-c=e[1],j=kM(c,qv(c,a,f));return[0,kL(c,qv(c,a,f)),j]}function
-qx(g,e,u,o,a){var
-p=h$(aD(c1,u));if(p){var
+yO(a){var
+b=dF(a5(a[3])),c=b?dF(a5(a[4])):b;return c?dF([0,a[2],0]):c}function
+qK(a,e,c){var
+b=ax(0,bM(a));return d(function(b){var
+d=aE(b,bY(a))?e:c;return cD(b,d)},b)}function
+qL(d,b,f){if(typeof
+d==="number"){if(d){var
+g=cD(yP,b);return[0,[0,cD(0,b),g,[0,e,a]],k0]}var
+h=cD(yQ,b),i=cD(yR,b);return[0,[0,cD(0,b),i,h],k0]}var
+c=d[1],j=kT(c,qK(c,b,f));return[0,kS(c,qK(c,b,f)),j]}function
+qM(g,d,u,o,b){var
+p=ig(aF(c5,u));if(p){var
 w=p[1],q=typeof
-e==="number"?[0,[0,b,b]]:h$(h(cz(c1),o));if(q){var
+d==="number"?[0,[0,a,a]]:ig(h(cA(c5),o));if(q){var
 r=q[1],x=i(g,1,u);if(x)if(typeof
-e==="number")var
+d==="number")var
 j=1;else
 var
-B=i(g,1,o),C=B?cA(g,o):B,j=C?J(bp(r,[0,d,b])):C;else
+B=i(g,1,o),C=B?cB(g,o):B,j=C?L(bq(r,[0,e,a])):C;else
 var
 j=x;var
-y=j?l(ys,a):j;if(y){var
-f=qw(e,w,r)[2],k=qw(e,w,r)[1],m=[0,c(2,b),b],n=function(b){return gf(function(a){var
-c=a[3],d=h(b,a[4]);return S([4,a[1],d],c)},a)},s=e9(function(a){var
-b=v(a[3],a[4]);return[4,a[1],b]},a),t=v(f,f),D=n(function(a){return a[3]}),E=S(f[3],D),F=n(function(a){return a[2]}),G=S(f[2],F),H=n(function(a){return a[1]}),I=S(f[1],H),K=M(function(b,a){return[2,b,a]},I,G),L=[4,t,s],N=v(f,M(function(b,a){return[2,b,a]},K,E)),O=[3,[2,v(f,gf(function(a){var
-b=cy(a[4],a[3]);return S(a[1],b)},a)),N],L],P=[2,[4,m,s],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],t]],O]],Q=[4,m,v(k,oU(f,gf(function(a){return S(a[1],a[4])},a)))],R=v(k,k),T=[2,[4,e9(function(a){return a[1]},a),R],Q],U=[4,m,v(gf(function(a){return S(a[1],a[3])},a),k)],V=[2,[2,[2,e9(function(a){var
-b=[4,a[2],a[2]],c=v(a[4],a[4]),d=[3,[2,v(a[3],a[3]),c],b];return[4,a[1],d]},a),U],T],P],W=typeof
-e==="number"?ap(e):bV(e[1]);return kU(g,ap(e),W,V)}var
+y=j?k(yO,b):j;if(y){var
+f=qL(d,w,r)[2],l=qL(d,w,r)[1],m=[0,c(2,a),a],n=function(c){return gl(function(a){var
+b=a[3],d=h(c,a[4]);return T([4,a[1],d],b)},b)},s=fd(function(a){var
+b=v(a[3],a[4]);return[4,a[1],b]},b),t=v(f,f),D=n(function(a){return a[3]}),E=T(f[3],D),F=n(function(a){return a[2]}),G=T(f[2],F),H=n(function(a){return a[1]}),I=T(f[1],H),J=O(function(b,a){return[2,b,a]},I,G),K=[4,t,s],M=v(f,O(function(b,a){return[2,b,a]},J,E)),N=[3,[2,v(f,gl(function(a){var
+b=cz(a[4],a[3]);return T(a[1],b)},b)),M],K],P=[2,[4,m,s],[4,[5,[0,c(2,c(2,a)),a],[2,[0,a,a],t]],N]],Q=[4,m,v(l,o9(f,gl(function(a){return T(a[1],a[4])},b)))],R=v(l,l),S=[2,[4,fd(function(a){return a[1]},b),R],Q],U=[4,m,v(gl(function(a){return T(a[1],a[3])},b),l)],V=[2,[2,[2,fd(function(a){var
+b=[4,a[2],a[2]],c=v(a[4],a[4]),d=[3,[2,v(a[3],a[3]),c],b];return[4,a[1],d]},b),U],S],P],W=typeof
+d==="number"?as(d):bY(d[1]);return k1(g,as(d),W,V)}var
 z=y}else
 var
 z=q;var
 A=z}else
 var
 A=p;return A}function
-qy(a){return[6,v(a,a)]}function
-qz(b){if(0===b[0])return[0,qu(b[1])];var
-a=b[1],c=a[7],d=eg(a[6]),e=eg(a[5]),f=bM(a[4]),g=bM(a[3]),h=bM(a[2]);return[1,[0,bM(a[1]),h,g,f,e,d,c]]}function
-ia(f,e,c,a){if(typeof
+qN(a){return[6,v(a,a)]}function
+qO(b){if(0===b[0])return[0,qJ(b[1])];var
+a=b[1],c=a[7],d=ej(a[6]),e=ej(a[5]),f=bO(a[4]),g=bO(a[3]),h=bO(a[2]);return[1,[0,bO(a[1]),h,g,f,e,d,c]]}function
+ih(f,d,c,a){if(typeof
 a==="number")return 0;else{if(0===a[0]){var
-g=a[1],j=I(c,d)?[3,g,f]:[2,g,f];return[0,j]}var
-h=a[2],i=a[1],k=I(c,d)?g4(e):e,b=bc(k),l=[4,i,d7(b)],m=[2,[4,h,d6(b)],l],n=[4,h,d7(b)];return[1,[3,[4,i,d6(b)],n],m]}}function
-kV(a,c){if(D(c,b))return a;var
-g=a1(c,aQ(2)),h=g[1];if(H(g[2],d)){var
-e=kV(a,h);return[4,e,e]}var
-f=kV(a,h);return[4,[4,f,f],a]}function
-a4(c,a){switch(a[0]){case
-0:return a[1];case
-1:return p$([0,d,b],c,a[1]);case
-2:return[3,[0,d,b],a4(c,a[1])];case
+g=a[1],j=I(c,e)?[3,g,f]:[2,g,f];return[0,j]}var
+h=a[2],i=a[1],k=I(c,e)?g$(d):d,b=bc(k),l=[4,i,d_(b)],m=[2,[4,h,d9(b)],l],n=[4,h,d_(b)];return[1,[3,[4,i,d9(b)],n],m]}}function
+k2(b,c){if(D(c,a))return b;var
+g=a2(c,aS(2)),h=g[1];if(H(g[2],e)){var
+d=k2(b,h);return[4,d,d]}var
+f=k2(b,h);return[4,[4,f,f],b]}function
+a6(c,b){switch(b[0]){case
+0:return b[1];case
+1:return qo([0,e,a],c,b[1]);case
+2:return[3,[0,e,a],a6(c,b[1])];case
 3:var
-e=a4(c,a[2]);return[2,a4(c,a[1]),e];case
+d=a6(c,b[2]);return[2,a6(c,b[1]),d];case
 4:var
-f=a4(c,a[2]);return[3,a4(c,a[1]),f];case
+f=a6(c,b[2]);return[3,a6(c,b[1]),f];case
 5:var
-g=a4(c,a[2]);return[4,a4(c,a[1]),g];case
+g=a6(c,b[2]);return[4,a6(c,b[1]),g];case
 6:var
-h=a4(c,a[2]);return[5,a4(c,a[1]),h];case
+h=a6(c,b[2]);return[5,a6(c,b[1]),h];case
 7:var
-i=a[2];return kV(a4(c,a[1]),i);default:return[6,a4(c,a[1])]}}function
-gh(d,h,g){var
-i=d[3],b=kC(d,g,h),a=i;for(;;){if(a){var
-c=a[1],e=a[2],f=a4(b,c[2]),b=[0,[0,c[1],f],b],a=e;continue}return b}}function
-gi(c){var
+i=b[2];return k2(a6(c,b[1]),i);default:return[6,a6(c,b[1])]}}function
+gn(d,h,g){var
+i=d[3],b=kJ(d,g,h),a=i;for(;;){if(a){var
+c=a[1],e=a[2],f=a6(b,c[2]),b=[0,[0,c[1],f],b],a=e;continue}return b}}function
+go(c){var
 a=c;for(;;)switch(a[0]){case
-0:return J(dU(a[1]));case
+0:return L(dV(a[1]));case
 1:return 1;case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-b=gi(a[1]);if(b){var
+b=go(a[1]);if(b){var
 a=a[2];continue}return b}}function
-kW(a){if(a){var
+k3(a){if(a){var
 b=a[1];if(0===b[0])return 0;var
-c=b[1],d=kW(a[2]);return x(function(a){return[0,c,a]},d)}return yy}function
-e_(c,e,p){var
-a=p;for(;;)switch(a[0]){case
+c=b[1],d=k3(a[2]);return x(function(a){return[0,c,a]},d)}return yU}function
+fe(c,d,p){var
+b=p;for(;;)switch(b[0]){case
 6:var
-g=a[2],i=e_(c,e,a[1]),j=i?e_(c,e,g):i;if(j){var
-k=a4(e,g),l=h(c,k);if(!l)return h(c,[3,[0,d,b],k]);var
+g=b[2],i=fe(c,d,b[1]),j=i?fe(c,d,g):i;if(j){var
+k=a6(d,g),l=h(c,k);if(!l)return h(c,[3,[0,e,a],k]);var
 m=l}else
 var
 m=j;return m;case
 8:var
-n=a[1],o=e_(c,e,n);return o?h(c,a4(e,n)):o;case
+n=b[1],o=fe(c,d,n);return o?h(c,a6(d,n)):o;case
 2:case
 7:var
-a=a[1];continue;case
+b=b[1];continue;case
 0:case
 1:return 1;default:var
-f=e_(c,e,a[1]);if(f){var
-a=a[2];continue}return f}}function
-qA(j,c,i,h,n){var
-o=c[3],b=kC(c,h,i),a=o;for(;;){if(a){var
-e=a[1],f=e[2],g=e_(j,b,f);if(g){var
-k=a[2],m=a4(b,f),b=[0,[0,e[1],m],b],a=k;continue}var
+f=fe(c,d,b[1]);if(f){var
+b=b[2];continue}return f}}function
+qP(j,c,i,h,n){var
+o=c[3],b=kJ(c,h,i),a=o;for(;;){if(a){var
+e=a[1],f=e[2],g=fe(j,b,f);if(g){var
+l=a[2],m=a6(b,f),b=[0,[0,e[1],m],b],a=l;continue}var
 d=g}else
 var
 d=1;if(d){var
-p=gh(c,i,h);return l(function(a){return e_(j,p,a)},n)}return d}}var
-ic=A(n(b),ib);function
-qB(e){var
-a=X(ic);if(e)var
-f=u(n(c(2,b)),a),g=C(n(c(2,c(2,b))),f),h=u(n(c(2,b)),a),d=aj(C(n(b),h),g);else
+p=gn(c,i,h);return k(function(a){return fe(j,p,a)},n)}return d}}var
+ij=A(n(a),ii);function
+qQ(e){var
+b=_(ij);if(e)var
+f=u(n(c(2,a)),b),g=C(n(c(2,c(2,a))),f),h=u(n(c(2,a)),b),d=ak(C(n(a),h),g);else
 var
-i=C(n(c(2,b)),a),j=X(ib),d=aj(C(u(n(c(2,b)),j),a),i);return aO(d)}function
-qC(d,c,a){if(d){var
-e=qB(c),f=C(n(b),e),g=u(A(n(b),a),f);return A(n(b),g)}var
-h=n(b),i=qB(c),j=aj(n(b),i);return A(u(a,C(n(b),j)),h)}function
-e$(f,e,d,a){var
-g=X(a),h=X(d),i=A(A(n(c(2,b)),h),g),j=f?e?ic:aj(ic,u(n(c(2,b)),ib)):aj(ic,n(c(2,b))),k=u(X(j),i);return aO(C(n(b),k))}function
-qD(a,d){var
-h=a?b:U(b),e=n(h),f=qC(a,d,yD),g=qC(a,d,yE),i=aj(f,e$(a,d,e,f)),j=[0,C(aj(g,e$(a,d,g,e)),i),0],k=aj(e,e$(a,d,e,f)),l=[0,C(aj(g,e$(a,d,f,g)),k),j],m=aj(e,e$(a,d,g,e)),o=[0,C(aj(f,e$(a,d,f,g)),m),l],p=a?d?n(c(2,b)):u(n(c(2,c(2,b))),ib):n(c(2,c(2,b)));return[0,p,o]}function
-qE(g,d){var
+i=C(n(c(2,a)),b),j=_(ii),d=ak(C(u(n(c(2,a)),j),b),i);return aQ(d)}function
+qR(d,c,b){if(d){var
+e=qQ(c),f=C(n(a),e),g=u(A(n(a),b),f);return A(n(a),g)}var
+h=n(a),i=qQ(c),j=ak(n(a),i);return A(u(b,C(n(a),j)),h)}function
+ff(f,e,d,b){var
+g=_(b),h=_(d),i=A(A(n(c(2,a)),h),g),j=f?e?ij:ak(ij,u(n(c(2,a)),ii)):ak(ij,n(c(2,a))),k=u(_(j),i);return aQ(C(n(a),k))}function
+qS(b,d){var
+h=b?a:W(a),e=n(h),f=qR(b,d,yZ),g=qR(b,d,y0),i=ak(f,ff(b,d,e,f)),j=[0,C(ak(g,ff(b,d,g,e)),i),0],k=ak(e,ff(b,d,e,f)),l=[0,C(ak(g,ff(b,d,f,g)),k),j],m=ak(e,ff(b,d,g,e)),o=[0,C(ak(f,ff(b,d,f,g)),m),l],p=b?d?n(c(2,a)):u(n(c(2,c(2,a))),ii):n(c(2,c(2,a)));return[0,p,o]}function
+qT(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
-e=b[2],f=c[1]?z(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-kX(w,v,u,t){var
-a=e(function(a){return q(a,u,0)},v);if(a){var
+e=b[2],f=c[1]?w(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
+k4(w,v,u,t){var
+a=d(function(a){return q(a,u,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 i=c[1];if(i){var
-d=c[2];if(d){var
-j=d[1];if(j){if(d[2])return 0;var
-x=j[1],y=i[1],z=g[1],A=f[1];return l(function(a){var
-c=h(a,x),d=h(a,y),e=h(a,z),b=h(a,A);return eK(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
-k=j}else
+e=c[2];if(e){var
+j=e[1];if(j){if(e[2])return 0;var
+x=j[1],y=i[1],z=g[1],A=f[1];return k(function(a){var
+c=h(a,x),d=h(a,y),e=h(a,z),b=h(a,A);return eQ(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
+l=j}else
 var
-k=d;var
-m=k}else
+l=e;var
+m=l}else
 var
 m=i;var
 n=m}else
@@ -6638,62 +6787,62 @@ r=f;var
 s=r}else
 var
 s=a;return s}function
-qF(f,i,e,c,h){var
-j=f?b:d,a=L(i,j);function
-g(b){var
-c=f?bA(b):b5(b);return B(c,a)}var
-k=[0,_(h),0],l=[0,[0,a,c,[0,t,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-qG(r,b,q,p,g,o,n){if(o){var
+qU(f,i,d,c,h){var
+j=f?a:e,b=J(i,j);function
+g(a){var
+c=f?br(a):bR(a);return B(c,b)}var
+k=[0,R(h),0],l=[0,[0,b,c,[0,t,[0,g(c),0]]],k];return[0,[0,b,d,[0,g(d),0]],l]}function
+qV(r,b,q,p,g,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(g){var
 h=g[2],c=0;if(h){var
-i=h[2],d=0;if(i)if(i[2]){var
-a=0;c=1;d=1}else{var
+i=h[2],e=0;if(i)if(i[2]){var
+a=0;c=1;e=1}else{var
 t=i[1],k=h[1],l=g[1],f=0;if(typeof
 j==="number")switch(j){case
 0:var
-A=e(av,a9(yF)),z=e(_,0),a=kX(b,p,cR(0,b7(b,dj(0,g),z),q),A);c=1;d=1;f=1;break;case
+A=d(aq,a4(y1)),z=d(R,0),a=k4(b,p,cS(0,b_(b,cX(0,g),z),q),A);c=1;e=1;f=1;break;case
 3:var
-a=D(k[2],l[1]);c=1;d=1;f=1;break}else
+a=D(k[2],l[1]);c=1;e=1;f=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-B=e(qE,yG),a=kX(b,p,cR(0,b7(b,qF(r,b,l,k,t),0),q),B);c=1;d=1;f=1}else{var
-a=m;c=1;d=1;f=1}else
+B=d(qT,y2),a=k4(b,p,cS(0,b_(b,qU(r,b,l,k,t),0),q),B);c=1;e=1;f=1}else{var
+a=m;c=1;e=1;f=1}else
 if(m){var
-a=0;c=1;d=1;f=1}else{var
-C=e(qE,yH),a=kX(b,p,cR(0,b7(b,qF(r,b,l,k,t),0),q),C);c=1;d=1;f=1}}if(!f)var
+a=0;c=1;e=1;f=1}else{var
+C=d(qT,y3),a=k4(b,p,cS(0,b_(b,qU(r,b,l,k,t),0),q),C);c=1;e=1;f=1}}if(!f)var
 u=0}else
 var
-u=i;if(!d)var
+u=i;if(!e)var
 v=u}else
 var
 v=h;if(!c){var
 w=v;s=1}}else{var
 w=g;s=1}if(s)var
 a=w;var
-y=a?yI:a}else
+y=a?y4:a}else
 var
 y=n;return y}return[0,n]}function
-qH(f,e,d,c,p,o,n){var
+qW(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;)switch(a[0]){case
 0:var
-h=qG(f,e,d,c,b,a[1],g);return h?J(h[1]):h;case
+h=qV(f,e,d,c,b,a[1],g);return h?L(h[1]):h;case
 1:var
-i=qG(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=dk(a[2],b),l=qH(f,e,d,c,k[1],j,a[3]);if(l){var
+i=qV(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=ds(a[2],b),l=qW(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m;default:return 0}}function
-kY(a){return cm(c(2,b),aT(a,b))}function
-fa(c,a,b,i,h){var
-f=dd(qD(a,b)),j=qD(a,b),k=e(cS(dc(f)),j),g=[0,d,cQ(c)];return qH(a,c,f,k,[0,g,[0,g,[0,i,0]]],1,h)}function
-qI(a,g,b){if(I(g,kY(a))){if(b){var
+k5(b){return cp(c(2,a),aX(b,a))}function
+fg(c,a,b,i,h){var
+f=dm(qS(a,b)),j=qS(a,b),k=d(cT(dl(f)),j),g=[0,e,cR(c)];return qW(a,c,f,k,[0,g,[0,g,[0,i,0]]],1,h)}function
+qX(a,g,b){if(I(g,k5(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,kY(a)],v=cQ(a),i=[0,kY(a),v],j=fa(a,0,1,h,b[1]),k=j?fa(a,0,0,i,c[1]):j;if(k){var
-l=fa(a,1,1,h,d[1]);if(l)return fa(a,1,0,i,e[1]);var
+h=[0,g,k5(a)],v=cR(a),i=[0,k5(a),v],j=fg(a,0,1,h,b[1]),k=j?fg(a,0,0,i,c[1]):j;if(k){var
+l=fg(a,1,1,h,d[1]);if(l)return fg(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -6710,304 +6859,306 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cQ(a)],s=fa(a,0,0,r,b[1]);if(s)return fa(a,1,0,r,f[1]);var
+r=[0,g,cR(a)],s=fg(a,0,0,r,b[1]);if(s)return fg(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-kZ(a){var
-b=[1,[2,d]];return by(function(b,a){return[1,[3,b,a]]},a,b)}function
-id(a){return kZ(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-ie(a,c){return kZ(e(function(a){var
-d=[0,a[2]],b=N(a[1],c);return[1,[7,[1,[8,kZ(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-qJ(e,d,c,b,a){if(0===a[0])return q(a[1],b,0);var
-f=a[1],g=b6(function(a){return qJ(e,d,c,b,a)},f);return h(b7(e,d,c),g)}function
-qK(a){return a?I(d,a[1][2][1]):a}function
-yJ(a){var
-b=m(f(a),yK);return b?ag(function(a){return J(H(a,d))},a):b}function
-qL(c,f,b,a){if(b)if(a)var
-d=b[1],g=s(c,L(c,a[1]),f),h=qL(c,f,b[2],a[2]),i=d[3],j=z(d[2],g),e=[0,[0,z(d[1],g),j,i],h];else
+k6(a){var
+b=[1,[2,e]];return bA(function(b,a){return[1,[3,b,a]]},a,b)}function
+ik(a){return k6(d(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+il(a,c){return k6(d(function(a){var
+e=[0,a[2]],b=M(a[1],c);return[1,[7,[1,[8,k6(d(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],e]]},a))}function
+qY(e,d,c,b,a){if(0===a[0])return q(a[1],b,0);var
+f=a[1],g=b9(function(a){return qY(e,d,c,b,a)},f);return h(b_(e,d,c),g)}function
+qZ(a){return a?I(e,a[1][2][1]):a}function
+y5(a){var
+b=m(f(a),y6);return b?ag(function(a){return L(H(a,e))},a):b}function
+q0(c,f,b,a){if(b)if(a)var
+d=b[1],g=r(c,J(c,a[1]),f),h=q0(c,f,b[2],a[2]),i=d[3],j=w(d[2],g),e=[0,[0,w(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-qM(d,c){var
+q1(d,c){var
 a=F(c,d);if(a){var
-b=a[1],e=b[1];return J(H(ct(b),e))}return a}function
-ig(b,a){return eD(eD(b,0),a)}function
-k0(a){if(a){var
-b=a[2],c=a[1];if(b)return ig(c,[0,yM,k0(b)]);var
+b=a[1],e=b[1];return L(H(cv(b),e))}return a}function
+im(b,a){return eI(eI(b,0),a)}function
+k7(a){if(a){var
+b=a[2],c=a[1];if(b)return im(c,[0,y8,k7(b)]);var
 d=c}else
 var
 d=a;return d}function
-K(a){return[0,yO,ig(k0(a),yN)]}function
-ak(a){return[0,yQ,ig(k0(a),yP)]}function
-aw(a){return[0,yS,[0,a,yR]]}function
-o(b,a){return[0,bo(yU,bo(b,yT)),a]}function
-V(b,a){return ak([0,o(b,a),0])}function
-c2(d){var
-b=d,a=uq,e=0;for(;;){if(b){var
-c=mp(a),b=b[1],a=c;continue}return[0,fD(gS(a)),e]}}function
-k1(a){return[0,fD(g1(a)),0]}function
-gj(a){var
-c=a0(a),f=0,b=0===c?uw:0<c?[0,g1(a)]:[1,g1(U(a))];if(0===b[0])var
-d=fD(b[1]);else
+K(a){return[0,y_,im(k7(a),y9)]}function
+al(a){return[0,za,im(k7(a),y$)]}function
+ay(a){return[0,zc,[0,a,zb]]}function
+o(b,a){return[0,bo(ze,bo(b,zd)),a]}function
+U(b,a){return al([0,o(b,a),0])}function
+c6(d){var
+b=d,a=uG,e=0;for(;;){if(b){var
+c=mw(a),b=b[1],a=c;continue}return[0,fI(gY(a)),e]}}function
+k8(a){return[0,fI(g9(a)),0]}function
+gp(a){var
+c=a1(a),f=0,b=0===c?uM:0<c?[0,g9(a)]:[1,g9(W(a))];if(0===b[0])var
+d=fI(b[1]);else
 var
-e=fD(b[1]),d=bo(b2(1,45),e);return[0,d,f]}function
-fb(a){var
-b=0,c=0<a0(a)?g1(a):uu;return[0,fD(c),b]}function
-k2(a){switch(a[0]){case
-2:return yW;case
-3:return 2<=a[1]?yX:yY;case
-4:return yZ;default:return yV}}function
-gk(b,a){function
-c(c,a){return ae(c,k2(a))?gk(b,a):[0,y5,g(gk(b,a),y4)]}switch(a[0]){case
+e=fI(b[1]),d=bo(b5(1,45),e);return[0,d,f]}function
+ek(a){var
+b=0,c=0<a1(a)?g9(a):uK;return[0,fI(c),b]}function
+k9(a){switch(a[0]){case
+2:return zg;case
+3:return 2<=a[1]?zh:zi;case
+4:return zj;default:return zf}}function
+gq(b,a){function
+c(c,a){return ae(c,k9(a))?gq(b,a):[0,zp,g(gq(b,a),zo)]}switch(a[0]){case
 0:var
 e=a[2],f=a[1];if(typeof
-e==="number")return[0,bz(f),0];var
-i=[0,y6,[0,bz(e),0]];return[0,bz(f),i];case
+e==="number")return[0,bB(f),0];var
+i=[0,zq,[0,bB(e),0]];return[0,bB(f),i];case
 1:return[0,h(b,a[1]),0];case
-2:return[0,y8,c(y7,a[1])];case
+2:return[0,zs,c(zr,a[1])];case
 3:var
-j=a[3],k=c([0,k2(a)],j);switch(a[1]){case
+j=a[3],k=c([0,k9(a)],j);switch(a[1]){case
 0:var
-d=y0;break;case
+d=zk;break;case
 1:var
-d=y1;break;case
+d=zl;break;case
 2:var
-d=y2;break;default:var
-d=y3}var
-l=a[2];return g(c(k2(a),l),[0,d,k]);case
+d=zm;break;default:var
+d=zn}var
+l=a[2];return g(c(k9(a),l),[0,d,k]);case
 4:var
-m=[0,y9,k1(a[2])];return g(c(y_,a[1]),m);default:return[0,za,g(gk(b,a[1]),y$)]}}function
-T(a){return[0,zd,g(gk(function(a){return 0===a[0]?a[1]:zc},a),zb)]}function
-k3(a){return[0,zf,g(gk(function(a){return a},a),ze)]}function
-c3(a){if(0===a[0])return T(a[1]);var
-b=[0,o(zg,T(a[2])),0];return ak([0,o(zh,T(a[1])),b])}function
-ih(b,a){var
+m=[0,zt,k8(a[2])];return g(c(zu,a[1]),m);default:return[0,zw,g(gq(b,a[1]),zv)]}}function
+V(a){return[0,zz,g(gq(function(a){return 0===a[0]?a[1]:zy},a),zx)]}function
+k_(a){return[0,zB,g(gq(function(a){return a},a),zA)]}function
+c7(a){if(0===a[0])return V(a[1]);var
+b=[0,o(zC,V(a[2])),0];return al([0,o(zD,V(a[1])),b])}function
+io(b,a){var
 c=[0,h(b,a[3]),0],d=[0,h(b,a[2]),c];return K([0,h(b,a[1]),d])}function
-zi(a){function
-b(a){return ih(c3,a)}switch(a[0]){case
+zE(a){function
+b(a){return io(c7,a)}switch(a[0]){case
 0:var
-e=0,f=a[5]?zj:zr,h=[0,o(zk,aw(f)),e],i=[0,o(zl,c3(a[4])),h],j=[0,o(zm,b(a[3])),i],k=[0,o(zn,b(a[2])),j],l=[0,o(zo,b(a[1])),k],c=[0,o(zq,aw(zp)),l];break;case
+e=0,f=a[5]?zF:zN,h=[0,o(zG,ay(f)),e],i=[0,o(zH,c7(a[4])),h],j=[0,o(zI,b(a[3])),i],k=[0,o(zJ,b(a[2])),j],l=[0,o(zK,b(a[1])),k],c=[0,o(zM,ay(zL)),l];break;case
 1:var
-d=a[3],m=d?[0,o(zs,b(d[1])),0]:d,n=[0,o(zt,b(a[2])),0],p=[0,o(zu,b(a[1])),n],c=g([0,o(zw,aw(zv)),p],m);break;default:var
-q=[0,o(zx,b(a[1])),0],c=[0,o(zz,aw(zy)),q]}return ak(c)}function
-zA(a){function
-b(a){return K(e(c3,a))}function
+d=a[3],m=d?[0,o(zO,b(d[1])),0]:d,n=[0,o(zP,b(a[2])),0],p=[0,o(zQ,b(a[1])),n],c=g([0,o(zS,ay(zR)),p],m);break;default:var
+q=[0,o(zT,b(a[1])),0],c=[0,o(zV,ay(zU)),q]}return al(c)}function
+zW(a){function
+b(a){return K(d(c7,a))}function
 f(a){var
-b=a?zB:zD;return o(zC,aw(b))}switch(a[0]){case
+b=a?zX:zZ;return o(zY,ay(b))}switch(a[0]){case
 0:var
-h=[0,f(a[5]),0],i=[0,o(zE,c3(a[4])),h],j=[0,o(zF,b(a[3])),i],k=[0,o(zG,b(a[2])),j],l=[0,o(zH,b(a[1])),k],c=[0,o(zJ,aw(zI)),l];break;case
+h=[0,f(a[5]),0],i=[0,o(z0,c7(a[4])),h],j=[0,o(z1,b(a[3])),i],k=[0,o(z2,b(a[2])),j],l=[0,o(z3,b(a[1])),k],c=[0,o(z5,ay(z4)),l];break;case
 1:var
-d=a[3],m=d?[0,o(zK,b(d[1])),0]:d,n=[0,o(zL,b(a[2])),0],p=[0,o(zM,b(a[1])),n],c=g([0,o(zO,aw(zN)),p],m);break;case
+e=a[3],m=e?[0,o(z6,b(e[1])),0]:e,n=[0,o(z7,b(a[2])),0],p=[0,o(z8,b(a[1])),n],c=g([0,o(z_,ay(z9)),p],m);break;case
 2:var
-q=[0,o(zP,b(a[1])),0],c=[0,o(zR,aw(zQ)),q];break;default:var
-r=[0,f(a[7]),0],s=[0,o(zS,c3(a[6])),r],t=[0,o(zT,c3(a[5])),s],u=[0,o(zU,b(a[4])),t],v=[0,o(zV,b(a[3])),u],w=[0,o(zW,b(a[2])),v],x=[0,o(zX,b(a[1])),w],c=[0,o(zZ,aw(zY)),x]}return ak(c)}function
-k4(a){switch(a){case
-0:return z0;case
-1:return z1;case
-2:return z2;case
-3:return z3;case
-4:return z4;case
-5:return z5;case
-6:return z6;case
-7:return z7;case
-8:return z8;case
-9:return z9;case
-10:return z_;case
-11:return z$;case
-12:return Aa;case
-13:return Ab;case
-14:return Ac;case
-15:return Ad;default:return Ae}}function
-k5(a){if(typeof
-a==="number")return Af;else
+q=[0,o(z$,b(a[1])),0],c=[0,o(Ab,ay(Aa)),q];break;default:var
+r=[0,f(a[7]),0],s=[0,o(Ac,c7(a[6])),r],t=[0,o(Ad,c7(a[5])),s],u=[0,o(Ae,b(a[4])),t],v=[0,o(Af,b(a[3])),u],w=[0,o(Ag,b(a[2])),v],x=[0,o(Ah,b(a[1])),w],c=[0,o(Aj,ay(Ai)),x]}return al(c)}function
+k$(a){switch(a){case
+0:return Ak;case
+1:return Al;case
+2:return Am;case
+3:return An;case
+4:return Ao;case
+5:return Ap;case
+6:return Aq;case
+7:return Ar;case
+8:return As;case
+9:return At;case
+10:return Au;case
+11:return Av;case
+12:return Aw;case
+13:return Ax;case
+14:return Ay;case
+15:return Az;default:return AA}}function
+la(a){if(typeof
+a==="number")return AB;else
 switch(a[0]){case
-0:return Ag;case
-1:return Ah;default:return Ai}}function
-gl(a){var
+0:return AC;case
+1:return AD;default:return AE}}function
+gr(a){var
 c=a[4];if(typeof
 c==="number")var
-d=0;else
+e=0;else
 switch(c[0]){case
 0:var
-d=[0,o(Aj,T(c[1])),0];break;case
+e=[0,o(AF,V(c[1])),0];break;case
 1:var
-d=[0,o(Ak,T(c[1])),0];break;default:var
-n=[0,T(c[2]),0],d=[0,o(Al,K([0,T(c[1]),n])),0]}var
-p=[0,o(Am,aw(k5(a[4]))),d],i=a[3];if(i){var
+e=[0,o(AG,V(c[1])),0];break;default:var
+n=[0,V(c[2]),0],e=[0,o(AH,K([0,V(c[1]),n])),0]}var
+p=[0,o(AI,ay(la(a[4]))),e],i=a[3];if(i){var
 b=i[1];switch(b[0]){case
 0:var
-r=K([0,T(b[1]),0]),k=a[1],q=0,s=6===k?An:12===k?Ar:As,f=[0,o(Ao,V(s,r)),q];break;case
+r=K([0,V(b[1]),0]),k=a[1],q=0,s=6===k?AJ:12===k?AN:AO,f=[0,o(AK,U(s,r)),q];break;case
 1:var
-x=K(e(T,b[1])),m=a[1],w=0;if(14<=m)switch(m+sJ|0){case
+x=K(d(V,b[1])),m=a[1],w=0;if(14<=m)switch(m+sY|0){case
 0:var
-h=At;break;case
+h=AP;break;case
 1:var
-h=Av;break;default:var
-h=Aw}else
+h=AR;break;default:var
+h=AS}else
 var
-h=Ax;var
-f=[0,o(Au,V(h,x)),w];break;case
+h=AT;var
+f=[0,o(AQ,U(h,x)),w];break;case
 2:var
-y=[0,o(Ay,K([0,T(b[2]),0])),0],f=[0,o(AA,ak([0,o(Az,K([0,T(b[1]),0])),y])),0];break;default:var
-z=[0,o(AB,K([0,T(b[2]),0])),0],f=[0,o(AD,ak([0,o(AC,K([0,T(b[1]),0])),z])),0]}var
+y=[0,o(AU,K([0,V(b[2]),0])),0],f=[0,o(AW,al([0,o(AV,K([0,V(b[1]),0])),y])),0];break;default:var
+z=[0,o(AX,K([0,V(b[2]),0])),0],f=[0,o(AZ,al([0,o(AY,K([0,V(b[1]),0])),z])),0]}var
 l=f}else
 var
 l=i;var
-t=g(l,p),j=a[2],u=j?[0,o(Ap,c2(j[1])),0]:j,v=g(u,t);return ak([0,o(Aq,aw(k4(a[1]))),v])}function
-qN(a){if(0===a[0]){var
-b=[0,o(AE,ih(T,a[2])),0];return V(AG,ak([0,o(AF,ih(T,a[1])),b]))}var
-c=[0,T(a[5]),0],d=[0,o(AH,K([0,T(a[4]),c])),0],e=[0,o(AI,T(a[3])),d],f=[0,T(a[2]),0];return V(AK,ak([0,o(AJ,K([0,T(a[1]),f])),e]))}function
-qO(a){if(0===a[0]){var
-b=[0,o(AL,K(e(T,a[2]))),0];return V(AN,ak([0,o(AM,K(e(T,a[1]))),b]))}return qN([1,a[1],a[2],a[3],a[4],a[5]])}function
-qP(a){switch(a){case
-0:return AO;case
-1:return AP;default:return AQ}}function
-AR(a){function
-b(a){return K(e(c3,a))}var
-c=[0,o(AS,b(a[2])),0],d=[0,o(AT,b(a[1])),c];return ak([0,o(AV,aw(AU)),d])}function
-qQ(a){function
+t=g(l,p),j=a[2],u=j?[0,o(AL,c6(j[1])),0]:j,v=g(u,t);return al([0,o(AM,ay(k$(a[1]))),v])}function
+q2(a){if(0===a[0]){var
+b=[0,o(A0,io(V,a[2])),0];return U(A2,al([0,o(A1,io(V,a[1])),b]))}var
+c=[0,V(a[5]),0],d=[0,o(A3,K([0,V(a[4]),c])),0],e=[0,o(A4,V(a[3])),d],f=[0,V(a[2]),0];return U(A6,al([0,o(A5,K([0,V(a[1]),f])),e]))}function
+q3(a){if(0===a[0]){var
+b=[0,o(A7,K(d(V,a[2]))),0];return U(A9,al([0,o(A8,K(d(V,a[1]))),b]))}return q2([1,a[1],a[2],a[3],a[4],a[5]])}function
+q4(a){switch(a){case
+0:return A_;case
+1:return A$;default:return Ba}}function
+Bb(a){function
+b(a){return K(d(c7,a))}var
+c=[0,o(Bc,b(a[2])),0],e=[0,o(Bd,b(a[1])),c];return al([0,o(Bf,ay(Be)),e])}function
+q5(a){function
 b(b,a){var
-c=[0,T(a),0];return K([0,T(b),c])}switch(a[0]){case
-0:return V(AW,b(a[1],a[2]));case
+c=[0,V(a),0];return K([0,V(b),c])}switch(a[0]){case
+0:return U(Bg,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,o(AX,b(c[1],c[2])),0],g=[0,o(AY,b(d[1],d[2])),f];return V(A0,ak([0,o(AZ,b(e[1],e[2])),g]));case
-2:return V(A1,T(a[1]));default:var
-h=[0,o(A2,T(a[2])),0];return V(A4,ak([0,o(A3,T(a[1])),h]))}}function
-A5(a){function
-b(a){return ih(T,a)}if(0===a[0])var
-c=a[5],e=c?[0,o(A6,b(c[1])),0]:c,f=[0,T(a[4]),0],h=[0,o(A7,K([0,T(a[3]),f])),0],i=[0,o(A8,T(a[2])),h],j=[0,o(A9,c2(a[1])),i],d=g([0,o(A$,aw(A_)),j],e);else
+c=a[3],d=a[2],e=a[1],f=[0,o(Bh,b(c[1],c[2])),0],g=[0,o(Bi,b(d[1],d[2])),f];return U(Bk,al([0,o(Bj,b(e[1],e[2])),g]));case
+2:return U(Bl,V(a[1]));default:var
+h=[0,o(Bm,V(a[2])),0];return U(Bo,al([0,o(Bn,V(a[1])),h]))}}function
+Bp(a){function
+b(a){return io(V,a)}if(0===a[0])var
+c=a[5],e=c?[0,o(Bq,b(c[1])),0]:c,f=[0,V(a[4]),0],h=[0,o(Br,K([0,V(a[3]),f])),0],i=[0,o(Bs,V(a[2])),h],j=[0,o(Bt,c6(a[1])),i],d=g([0,o(Bv,ay(Bu)),j],e);else
 var
-k=[0,o(Ba,T(a[4])),0],l=[0,o(Bb,b(a[3])),k],m=[0,o(Bc,b(a[2])),l],n=a[1]?Bd:Bf,d=[0,o(Be,aw(n)),m];return ak(d)}function
-qR(a){var
-b=a?[0,o(Bg,K(e(A5,a))),0]:a;return b}function
-k6(d,c,b,a){var
-f=[0,o(Bh,K(e(gl,a))),0],h=g(qR(b),f),i=[0,o(Bi,qN(c)),0];return ak(g([0,o(Bk,V(Bj,K(e(zi,d)))),i],h))}function
-Bl(a){switch(a[0]){case
-0:return V(Bm,k6(a[1],a[2],a[3],a[4]));case
+k=[0,o(Bw,V(a[4])),0],l=[0,o(Bx,b(a[3])),k],m=[0,o(By,b(a[2])),l],n=a[1]?Bz:BB,d=[0,o(BA,ay(n)),m];return al(d)}function
+q6(a){var
+b=a?[0,o(BC,K(d(Bp,a))),0]:a;return b}function
+lb(e,c,b,a){var
+f=[0,o(BD,K(d(gr,a))),0],h=g(q6(b),f),i=[0,o(BE,q2(c)),0];return al(g([0,o(BG,U(BF,K(d(zE,e)))),i],h))}function
+BH(a){switch(a[0]){case
+0:return U(BI,lb(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],d=a[1],f=K(e(zA,a[2])),l=[0,o(Bn,K(e(gl,a[6]))),0],m=b?[0,o(Bo,qQ(b[1])),0]:b,n=g(m,l),k=0,p=[0,o(Bp,qO(a[4])),n];if(typeof
-d==="number")if(d)var
-h=Bq;else{var
-i=V(Bv,f);k=1}else
+b=a[5],c=a[3],e=a[1],f=K(d(zW,a[2])),l=[0,o(BJ,K(d(gr,a[6]))),0],m=b?[0,o(BK,q5(b[1])),0]:b,n=g(m,l),k=0,p=[0,o(BL,q3(a[4])),n];if(typeof
+e==="number")if(e)var
+h=BM;else{var
+i=U(BR,f);k=1}else
 var
-h=qP(d[1]);if(!k)var
-q=c?[0,o(Br,T(c[1])),0]:c,i=V(h,ak([0,o(Bs,f),q]));return V(Bu,ak([0,o(Bt,i),p]));case
+h=q4(e[1]);if(!k)var
+q=c?[0,o(BN,V(c[1])),0]:c,i=U(h,al([0,o(BO,f),q]));return U(BQ,al([0,o(BP,i),p]));case
 2:var
-r=[0,o(Bw,K(e(gl,a[7]))),0],s=g(qR(a[6]),r),t=[0,o(Bx,qQ(a[5])),0],u=[0,o(By,qO(a[4])),t],v=[0,o(Bz,T(a[3])),0],w=ak([0,o(BA,K(e(AR,a[2]))),v]);return V(BC,ak(g([0,o(BB,V(qP(a[1]),w)),u],s)));case
+r=[0,o(BS,K(d(gr,a[7]))),0],s=g(q6(a[6]),r),t=[0,o(BT,q5(a[5])),0],u=[0,o(BU,q3(a[4])),t],v=[0,o(BV,V(a[3])),0],w=al([0,o(BW,K(d(Bb,a[2]))),v]);return U(BY,al(g([0,o(BX,U(q4(a[1]),w)),u],s)));case
 3:var
-x=[0,o(BD,K(e(gl,a[7]))),0],y=[0,o(BE,K(e(T,a[6]))),0],z=[0,o(BH,V(BG,ak([0,o(BF,K(e(T,a[5]))),y]))),x],A=0,B=a[4],C=[0,o(BK,K(e(function(a){return 0===a[0]?V(BI,K(e(k3,a[1]))):V(BJ,k3(a[1]))},B))),A],D=a[3],E=[0,o(BL,K(e(function(a){var
-b=[0,k3(a[2]),0];return K([0,aw(a[1]),b])},D))),C],F=a[2],G=[0,o(BM,K(e(function(a){var
-b=[0,c3(a[2]),0];return K([0,aw(a[1]),b])},F))),E];return V(BQ,ak([0,o(BP,V(BO,ak([0,o(BN,K(e(aw,a[1]))),G]))),z]));case
+x=[0,o(BZ,K(d(gr,a[7]))),0],y=[0,o(B0,K(d(V,a[6]))),0],z=[0,o(B3,U(B2,al([0,o(B1,K(d(V,a[5]))),y]))),x],A=0,B=a[4],C=[0,o(B6,K(d(function(a){return 0===a[0]?U(B4,K(d(k_,a[1]))):U(B5,k_(a[1]))},B))),A],D=a[3],E=[0,o(B7,K(d(function(a){var
+b=[0,k_(a[2]),0];return K([0,ay(a[1]),b])},D))),C],F=a[2],G=[0,o(B8,K(d(function(a){var
+b=[0,c7(a[2]),0];return K([0,ay(a[1]),b])},F))),E];return U(Ca,al([0,o(B$,U(B_,al([0,o(B9,K(d(ay,a[1]))),G]))),z]));case
 4:var
-H=[0,o(BR,K(e(gl,a[3]))),0],I=[0,o(BU,V(BT,ak([0,o(BS,T(a[2])),0]))),H];return V(BY,ak([0,o(BX,V(BW,ak([0,o(BV,T(a[1])),0]))),I]));case
+H=[0,o(Cb,K(d(gr,a[3]))),0],I=[0,o(Ce,U(Cd,al([0,o(Cc,V(a[2])),0]))),H];return U(Ci,al([0,o(Ch,U(Cg,al([0,o(Cf,V(a[1])),0]))),I]));case
 5:var
-J=[0,o(BZ,T(a[5])),0];return V(B1,ak([0,o(B0,k6(a[1],[0,a[2],a[3]],0,a[4])),J]));case
+J=[0,o(Cj,V(a[5])),0];return U(Cl,al([0,o(Ck,lb(a[1],[0,a[2],a[3]],0,a[4])),J]));case
 6:var
-j=a[1],L=0,M=j?c3(j[1]):aw(B4);return V(B3,ak([0,o(B2,M),L]));default:var
-N=[0,o(B5,T(a[6])),0],O=[0,o(B6,T(a[5])),N],P=[0,o(B7,k6(a[2],a[3],0,a[4])),O],Q=a[1];return V(Ca,ak([0,o(B$,K(e(function(a){var
-b=[0,o(B8,T(a[2][2])),0],c=[0,o(B9,T(a[2][1])),b];return ak([0,o(B_,aw(a[1])),c])},Q))),P]))}}function
-dA(a){return K(e(gj,a))}function
-gm(b,a){var
-c=[0,o(Cb,fb(a)),0];return ak([0,o(Cc,K(e(dA,b))),c])}function
-dB(a){switch(a[0]){case
-0:return aw(a[1]);case
+j=a[1],L=0,M=j?c7(j[1]):ay(Co);return U(Cn,al([0,o(Cm,M),L]));default:var
+N=[0,o(Cp,V(a[6])),0],O=[0,o(Cq,V(a[5])),N],P=[0,o(Cr,lb(a[2],a[3],0,a[4])),O],Q=a[1];return U(Cw,al([0,o(Cv,K(d(function(a){var
+b=[0,o(Cs,V(a[2][2])),0],c=[0,o(Ct,V(a[2][1])),b];return al([0,o(Cu,ay(a[1])),c])},Q))),P]))}}function
+c8(a){return K(d(gp,a))}function
+gs(b,a){var
+c=[0,o(Cx,ek(a)),0];return al([0,o(Cy,K(d(c8,b))),c])}function
+c9(a){switch(a[0]){case
+0:return ay(a[1]);case
 1:var
-b=gm(a[2],a[3]);return V(a[1],b);case
+b=gs(a[2],a[3]);return U(a[1],b);case
 2:var
-c=a[1]?Cd:Cf;return V(Ce,aw(c));case
+c=a[1]?Cz:CB;return U(CA,ay(c));case
 3:var
-d=[0,dA(a[3]),0];return V(Cg,K([0,gm(a[1],a[2]),d]));case
+e=[0,c8(a[3]),0];return U(CC,K([0,gs(a[1],a[2]),e]));case
 4:var
-f=[0,fb(a[4]),0],g=[0,gj(a[3]),f];return V(Ch,K([0,gm(a[1],a[2]),g]));case
+f=[0,ek(a[4]),0],g=[0,gp(a[3]),f];return U(CD,K([0,gs(a[1],a[2]),g]));case
 5:var
-h=[0,fb(a[3]),0],i=[0,gj(a[2]),h];return V(Ci,K([0,dB(a[1]),i]));case
+h=[0,ek(a[3]),0],i=[0,gp(a[2]),h];return U(CE,K([0,c9(a[1]),i]));case
 6:var
-j=[0,fb(a[3]),0],k=[0,gj(a[2]),j];return V(Cj,K([0,dB(a[1]),k]));case
-7:return V(Ck,dB(a[1]));case
+j=[0,ek(a[3]),0],k=[0,gp(a[2]),j];return U(CF,K([0,c9(a[1]),k]));case
+7:return U(CG,c9(a[1]));case
 8:var
-l=[0,K(e(dA,a[3])),0],m=[0,aw(a[2]),l];return V(Cl,K([0,dB(a[1]),m]));case
+l=[0,K(d(c8,a[3])),0],m=[0,ay(a[2]),l];return U(CH,K([0,c9(a[1]),m]));case
 9:var
-n=a[1];return V(Cm,K(e(function(a){var
-b=a[1],c=b[1],d=[0,dB(a[2]),0],e=[0,fb(b[2]),d],f=[0,gj(c[2]),e];return K([0,dA(c[1]),f])},n)));default:var
-o=[0,dB(a[5]),0],p=[0,dB(a[4]),o],q=[0,K(e(dA,a[3])),p],r=[0,fb(a[2]),q];return V(Cn,K([0,dA(a[1]),r]))}}function
-Co(a){var
-b=[0,dB(a[2]),0];return K([0,c2(a[1]),b])}function
-qS(a){if(typeof
-a==="number")return 0===a?aw(Cp):aw(Cq);else
+n=a[1];return U(CI,K(d(function(a){var
+b=a[1],c=b[1],d=[0,c9(a[2]),0],e=[0,ek(b[2]),d],f=[0,gp(c[2]),e];return K([0,c8(c[1]),f])},n)));case
+10:var
+o=[0,c9(a[5]),0],p=[0,c9(a[4]),o],q=[0,K(d(c8,a[3])),p],r=[0,ek(a[2]),q];return U(CJ,K([0,c8(a[1]),r]));default:var
+s=[0,ek(a[3]),0],t=[0,K(d(c8,a[2])),s];return U(CK,K([0,c9(a[1]),t]))}}function
+CL(a){var
+b=[0,c9(a[2]),0];return K([0,c6(a[1]),b])}function
+q7(a){if(typeof
+a==="number")return 0===a?ay(CM):ay(CN);else
 switch(a[0]){case
 0:var
-b=[0,K(e(dA,a[2])),0];return V(Cr,K([0,c2(a[1]),b]));case
+b=[0,K(d(c8,a[2])),0];return U(CO,K([0,c6(a[1]),b]));case
 1:var
-c=[0,c2(a[2]),0];return V(Cs,K([0,c2(a[1]),c]));case
-2:return V(Ct,K(e(T,a[1])));default:var
-d=[0,o(Cu,gm(a[4],a[5])),0],f=[0,o(Cv,K(e(T,a[3]))),d],g=[0,o(Cw,K(e(T,a[2]))),f];return V(Cy,ak([0,o(Cx,c2(a[1])),g]))}}function
-Cz(a){var
-b=a[4],h=b?[0,o(CA,dA([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,o(CB,qS(d[1])),0]:d,j=g(i,h),f=a[2],k=f?[0,o(CC,c2(f[1])),0]:f,l=g(k,j),c=a[1],m=c?[0,o(CD,K(e(Co,[0,c[1],c[2]]))),0]:c;return ak(g(m,l))}function
-qT(f,a,d){var
-h=[0,o(CE,K(e(Cz,d))),0];if(a)var
-b=a[1],c=[0,o(CF,gm(b[1],b[2])),0];else
+c=[0,c6(a[2]),0];return U(CP,K([0,c6(a[1]),c]));case
+2:return U(CQ,K(d(V,a[1])));default:var
+e=[0,o(CR,gs(a[4],a[5])),0],f=[0,o(CS,K(d(V,a[3]))),e],g=[0,o(CT,K(d(V,a[2]))),f];return U(CV,al([0,o(CU,c6(a[1])),g]))}}function
+CW(a){var
+b=a[4],h=b?[0,o(CX,c8([0,b[1],b[2]])),0]:b,e=a[3],i=e?[0,o(CY,q7(e[1])),0]:e,j=g(i,h),f=a[2],k=f?[0,o(CZ,c6(f[1])),0]:f,l=g(k,j),c=a[1],m=c?[0,o(C0,K(d(CL,[0,c[1],c[2]]))),0]:c;return al(g(m,l))}function
+q8(f,a,e){var
+h=[0,o(C1,K(d(CW,e))),0];if(a)var
+b=a[1],c=[0,o(C2,gs(b[1],b[2])),0];else
 var
 c=a;var
-i=g(c,h);return ak([0,o(CG,k1(f)),i])}function
-qU(d,c,a,b){var
-f=[0,o(CH,qS(b)),0],h=a?[0,o(CI,K(e(T,a))),0]:a,i=g(h,f),j=[0,o(CJ,K(e(T,c))),0];return ak(g([0,o(CK,k1(d)),j],i))}function
-CL(a){if(typeof
-a==="number")return aw(CM);else
+i=g(c,h);return al([0,o(C3,k8(f)),i])}function
+q9(e,c,a,b){var
+f=[0,o(C4,q7(b)),0],h=a?[0,o(C5,K(d(V,a))),0]:a,i=g(h,f),j=[0,o(C6,K(d(V,c))),0];return al(g([0,o(C7,k8(e)),j],i))}function
+C8(a){if(typeof
+a==="number")return ay(C9);else
 switch(a[0]){case
-0:return V(CN,c2(a[1]));case
-1:return V(CO,qT(a[1],a[2],a[3]));default:return V(CP,qU(a[1],a[2],a[3],a[4]))}}function
-ii(a){var
-b=ja(i$(aG(a),function(b){return be(a,b)}));return l(function(a){var
-b=J(34===a?1:0),c=b?J(92===a?1:0):b,d=c?mI(32,a):c;return d?mI(a,126):d},b)}function
-k7(d){var
+0:return U(C_,c6(a[1]));case
+1:return U(C$,q8(a[1],a[2],a[3]));default:return U(Da,q9(a[1],a[2],a[3],a[4]))}}function
+ip(a){var
+b=jg(jf(aI(a),function(b){return be(a,b)}));return k(function(a){var
+b=L(34===a?1:0),c=b?L(92===a?1:0):b,d=c?mP(32,a):c;return d?mP(a,126):d},b)}function
+lc(d){var
 a=d;for(;;)switch(a[0]){case
 8:var
-b=ii(a[2]);if(b){var
+b=ip(a[2]);if(b){var
 a=a[1];continue}return b;case
 9:var
-e=a[1];return l(function(a){return k7(a[2])},e);case
+e=a[1];return k(function(a){return lc(a[2])},e);case
 10:var
-c=k7(a[4]);if(c){var
+c=lc(a[4]);if(c){var
 a=a[5];continue}return c;case
 0:case
-1:return ii(a[1]);case
-5:case
-6:case
-7:var
-a=a[1];continue;default:return 1}}function
-gn(b){function
+1:return ip(a[1]);case
+2:case
+3:case
+4:return 1;default:var
+a=a[1];continue}}function
+gt(b){function
 c(f){var
-a=mH(f),b=ae(C4,a),c=b?ae(a,C5):b;if(c)var
+a=mO(f),b=ae(Dp,a),c=b?ae(a,Dq):b;if(c)var
 d=c;else{var
-e=ae(C6,a);if(e)return ae(a,C7);var
+e=ae(Dr,a);if(e)return ae(a,Ds);var
 d=e}return d}var
-a=ja(i$(aG(b),function(a){return be(b,a)}));if(a){var
-d=a[2],e=c(a[1]),g=e?l(function(a){var
+a=jg(jf(aI(b),function(a){return be(b,a)}));if(a){var
+d=a[2],e=c(a[1]),g=e?k(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=mH(a),f=ae(C8,e),h=f?ae(e,C9):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,h=g?ae(f(d),C_):g;if(h)return J(aJ(b,C$));var
+e=mO(a),f=ae(Dt,e),h=f?ae(e,Du):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,h=g?ae(f(d),Dv):g;if(h)return L(aM(b,Dw));var
 i=h}else
 var
 i=a;return i}function
-k8(c){var
+ld(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return gn(a[1]);case
+1:return gt(a[1]);case
 3:var
-b=k8(a[2]);if(b){var
+b=ld(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-go(m){var
-a=m;for(;;)switch(a[0]){case
+gu(m){var
+b=m;for(;;)switch(b[0]){case
 0:var
-e=a[1];if(typeof
+e=b[1];if(typeof
 e==="number")var
 d=0;else
 if(0===e[0])var
@@ -7015,42 +7166,42 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=gS(a[2]);if(typeof
+f=gY(b[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=go(a[2]);if(i){var
-a=a[3];continue}return i;case
+i=gu(b[2]);if(i){var
+b=b[3];continue}return i;case
 4:var
-j=a[2],k=go(a[1]),l=k?gZ(c(2,b),j):k;return l?gZ(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
-a=a[1];continue}}function
-fc(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-ce(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-eh(a){return y(fc,ce(a))}function
-k9(a){switch(a[0]){case
+j=b[2],k=gu(b[1]),l=k?g7(c(2,a),j):k;return l?g7(j,c(2,c(2,c(2,c(2,c(2,c(2,a))))))):l;default:var
+b=b[1];continue}}function
+fh(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+ch(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+el(a){return y(fh,ch(a))}function
+le(a){switch(a[0]){case
 0:var
-c=fc(a[4]),d=g(eh(a[3]),c),e=g(eh(a[2]),d);return g(eh(a[1]),e);case
+c=fh(a[4]),d=g(el(a[3]),c),e=g(el(a[2]),d);return g(el(a[1]),e);case
 1:var
-b=a[3],f=b?eh(b[1]):b,h=g(eh(a[2]),f);return g(eh(a[1]),h);default:return eh(a[1])}}function
-Da(a){switch(a[0]){case
+b=a[3],f=b?el(b[1]):b,h=g(el(a[2]),f);return g(el(a[1]),h);default:return el(a[1])}}function
+Dx(a){switch(a[0]){case
 0:var
 d=g(a[3],[0,a[4],0]),e=g(a[2],d),b=g(a[1],e);break;case
 1:var
 c=a[3],f=c?c[1]:c,h=g(a[2],f),b=g(a[1],h);break;case
 2:var
 b=a[1];break;default:var
-i=g(a[4],[0,a[5],[0,a[6],0]]),j=g(a[3],i),k=g(a[2],j),b=g(a[1],k)}return y(fc,b)}function
-qV(a){return 0===a[0]?g(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-qW(a){if(0===a[0]){var
-b=ce(a[2]);return g(ce(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-qX(a){switch(a[0]){case
+i=g(a[4],[0,a[5],[0,a[6],0]]),j=g(a[3],i),k=g(a[2],j),b=g(a[1],k)}return y(fh,b)}function
+q_(a){return 0===a[0]?g(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+q$(a){if(0===a[0]){var
+b=ch(a[2]);return g(ch(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+ra(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
-ei(e){var
+em(e){var
 a=e[4],h=typeof
 a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=e[3];if(c){var
 b=c[1];switch(b[0]){case
@@ -7062,150 +7213,150 @@ d=[0,b[1],[0,b[2],0]]}var
 f=d}else
 var
 f=c;return g(f,h)}function
-qY(a){if(0===a[0]){var
-b=a[5],c=b?ce(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
-d=[0,a[4],0],e=g(ce(a[3]),d);return g(ce(a[2]),e)}function
-qZ(b,e){var
+rb(a){if(0===a[0]){var
+b=a[5],c=b?ch(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
+d=[0,a[4],0],e=g(ch(a[3]),d);return g(ch(a[2]),e)}function
+rc(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
-f=c[1];return ag(function(a){return aJ(f,a)},b)}return 0;case
+f=c[1];return ag(function(a){return aM(f,a)},b)}return 0;case
 3:var
-d=qZ(b,a[2]);if(d){var
+d=rc(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-gp(c,a){return l(function(a){var
-b=go(a);return b?qZ(c,a):b},a)}function
-q0(a){if(typeof
+gv(c,a){return k(function(a){var
+b=gu(a);return b?rc(c,a):b},a)}function
+rd(a){if(typeof
 a!=="number")switch(a[0]){case
 2:return a[1];case
 3:return g(a[2],a[3])}return 0}function
-q1(a){var
-d=gZ(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?gZ(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
-q2(a,b){return b?[4,q2(a,b[1]),a]:a}function
-k(a){switch(a[0]){case
+re(b){var
+d=g7(c(2,c(2,c(2,c(2,c(2,a))))),b);return d?g7(b,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,a))))))))))):d}function
+rf(a,b){return b?[4,rf(a,b[1]),a]:a}function
+l(b){switch(b[0]){case
 0:var
-i=a[2],j=c(2,r(c(2,c(2,b)))),l=function(a){return E(j,a)},m=gT(mn(i),l,b);return[0,mC(mo(gS(a[1]),i)),m];case
+i=b[2],j=c(2,s(c(2,c(2,a)))),k=function(a){return E(j,a)},m=g0(mu(i),k,a);return[0,mI(mv(gY(b[1]),i)),m];case
 1:var
-e=a[1];return 0===e[0]?[5,[0,b,b],[0,d,b]]:[1,e[1],e[2],e[3]];case
+d=b[1];return 0===d[0]?[5,[0,a,a],[0,e,a]]:[1,d[1],d[2],d[3]];case
 2:var
-f=k(a[1]);return 0===f[0]?[0,U(f[1]),f[2]]:[3,[0,d,b],f];case
+f=l(b[1]);return 0===f[0]?[0,W(f[1]),f[2]]:[3,[0,e,a],f];case
 3:var
-g=k(a[2]),h=k(a[3]);switch(a[1]){case
+g=l(b[2]),h=l(b[3]);switch(b[1]){case
 0:return[2,g,h];case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=aU(fB(a[2]));return q2(k(a[1]),n);default:return[6,k(a[1])]}}function
-cf(a){if(0===a[0]){var
-b=k(a[1]);return[0,b,b]}var
-c=k(a[2]);return[0,k(a[1]),c]}function
-ej(a){var
-b=cf(a[3]),c=cf(a[2]);return[0,cf(a[1]),c,b]}function
-Db(a){switch(a[0]){case
+n=aY(fF(b[2]));return rf(l(b[1]),n);default:return[6,l(b[1])]}}function
+ci(a){if(0===a[0]){var
+b=l(a[1]);return[0,b,b]}var
+c=l(a[2]);return[0,l(a[1]),c]}function
+en(a){var
+b=ci(a[3]),c=ci(a[2]);return[0,ci(a[1]),c,b]}function
+Dy(a){switch(a[0]){case
 0:var
-b=a[5],c=cf(a[4]),d=ej(a[3]),e=ej(a[2]);return[0,[0,ej(a[1]),e,d,c,b]];case
+b=a[5],c=ci(a[4]),d=en(a[3]),e=en(a[2]);return[0,[0,en(a[1]),e,d,c,b]];case
 1:var
-f=x(ej,a[3]),g=ej(a[2]);return[1,ej(a[1]),g,f];default:return[2,ej(a[1])]}}function
-q3(a){if(0===a[0]){var
+f=x(en,a[3]),g=en(a[2]);return[1,en(a[1]),g,f];default:return[2,en(a[1])]}}function
+rg(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
-b=k(h(a,c));return[0,k(h(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
-g=k(a[5]),i=[0,k(a[4]),g],j=k(a[3]),l=k(a[2]);return[1,k(a[1]),l,j,i]}function
-fd(a){var
-b=k(a[3]),c=k(a[2]);return[0,k(a[1]),c,b]}function
-dC(a){if(0===a[0]){var
-c=a[5],h=c?fd(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=k(a[4]),j=k(a[3]),l=k(a[2]);return[0,aU(a[1]),l,j,i,h]}var
-e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=fd(f),n=fd(g);return[2,k(e),n,m]}var
-o=fd(f),p=fd(g);return[1,k(e),p,o]}function
-ij(b,a){if(a){var
-c=a[1],d=a[2],f=ij(g(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return g(aW(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:m(b[1],a[1]):0:0===a[0]?0:cM(b[1],a[1]);return J(d)},h),f)}return a}function
-Dc(b){if(b[1])return 0;var
+b=l(h(a,c));return[0,l(h(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
+g=l(a[5]),i=[0,l(a[4]),g],j=l(a[3]),k=l(a[2]);return[1,l(a[1]),k,j,i]}function
+fi(a){var
+b=l(a[3]),c=l(a[2]);return[0,l(a[1]),c,b]}function
+dG(b){if(0===b[0]){var
+c=b[5],h=c?fi(c[1]):[0,[0,e,a],[0,e,a],[0,e,a]],i=l(b[4]),j=l(b[3]),k=l(b[2]);return[0,aY(b[1]),k,j,i,h]}var
+d=b[4],f=b[3],g=b[2];if(b[1]){var
+m=fi(f),n=fi(g);return[2,l(d),n,m]}var
+o=fi(f),p=fi(g);return[1,l(d),p,o]}function
+iq(b,a){if(a){var
+c=a[1],e=a[2],f=iq(g(b,[0,c,0]),e),h=d(function(a){return[0,c,a]},b);return g(aP(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:m(b[1],a[1]):0:0===a[0]?0:cN(b[1],a[1]);return L(d)},h),f)}return a}function
+Dz(b){if(b[1])return 0;var
 a=b[4];if(typeof
-a!=="number"&&1===a[0])return[0,[0,k(a[1])],0];return 0}function
-q4(N,M,a){switch(a[1]){case
+a!=="number"&&1===a[0])return[0,[0,l(a[1])],0];return 0}function
+rh(N,M,b){switch(b[1]){case
 0:var
-g=a[4];if(typeof
-g!=="number"&&0===g[0])return[0,[1,k(g[1])],0];return 0;case
+g=b[4];if(typeof
+g!=="number"&&0===g[0])return[0,[1,l(g[1])],0];return 0;case
 1:var
-f=a[4],A=0;if(typeof
+f=b[4],A=0;if(typeof
 f==="number")A=1;else
 switch(f[0]){case
 0:var
-O=f[1],c=function(a){return[2,a,k(O)]};break;case
+O=f[1],c=function(a){return[2,a,l(O)]};break;case
 1:var
-Q=f[1],c=function(a){return[3,a,k(Q)]};break;default:A=1}if(A)return 0;break;case
+Q=f[1],c=function(a){return[3,a,l(Q)]};break;default:A=1}if(A)return 0;break;case
 2:var
-h=a[4],I=0;if(typeof
+h=b[4],I=0;if(typeof
 h==="number"||!(1===h[0]))I=1;else{var
-i=a[3],R=h[1];if(!i)return i;var
+i=b[3],R=h[1];if(!i)return i;var
 C=i[1];if(0!==C[0])return 0;var
 S=C[1],c=function(a){var
-b=k(R);return[4,a,k(S),b]}}if(I)return 0;break;case
+b=l(R);return[4,a,l(S),b]}}if(I)return 0;break;case
 3:var
-j=a[4];if(typeof
-j!=="number"&&1===j[0])return[0,[5,k(j[1])],0];return 0;case
+j=b[4];if(typeof
+j!=="number"&&1===j[0])return[0,[5,l(j[1])],0];return 0;case
 4:var
-l=a[4],J=0;if(typeof
-l==="number"||!(0===l[0]))J=1;else
+k=b[4],J=0;if(typeof
+k==="number"||!(0===k[0]))J=1;else
 var
-T=l[1],c=function(a){return[6,a,k(T)]};if(J)return 0;break;case
+T=k[1],c=function(a){return[6,a,l(T)]};if(J)return 0;break;case
 5:var
-n=a[4];if(typeof
-n!=="number"&&0===n[0])return[0,[7,k(n[1])],0];return 0;case
+n=b[4];if(typeof
+n!=="number"&&0===n[0])return[0,[7,l(n[1])],0];return 0;case
 6:var
-o=a[4];if(typeof
+o=b[4];if(typeof
 o!=="number"&&0===o[0]){var
-D=o[1],p=a[3];if(p){var
+D=o[1],p=b[3];if(p){var
 q=p[1];switch(q[0]){case
 0:var
-U=k(D);return[0,[8,k(q[1]),U],0];case
+U=l(D);return[0,[8,l(q[1]),U],0];case
 1:var
-V=k(D);return[0,[15,e(k,q[1]),V],0];default:var
+V=l(D);return[0,[15,d(l,q[1]),V],0];default:var
 E=0}}else
 var
 E=p;return E}return 0;case
 7:var
-r=a[4];if(typeof
-r!=="number"&&0===r[0])return[0,[9,k(r[1])],0];return 0;case
+r=b[4];if(typeof
+r!=="number"&&0===r[0])return[0,[9,l(r[1])],0];return 0;case
 8:var
-s=a[4],K=0;if(typeof
+s=b[4],K=0;if(typeof
 s==="number"||!(1===s[0]))K=1;else{var
-t=a[3],W=s[1];if(!t)return t;var
+t=b[3],W=s[1];if(!t)return t;var
 F=t[1];if(0!==F[0])return 0;var
 X=F[1],c=function(a){var
-b=k(W);return[13,a,k(X),b]}}if(K)return 0;break;case
+b=l(W);return[13,a,l(X),b]}}if(K)return 0;break;case
 9:var
-u=a[4];if(typeof
+u=b[4];if(typeof
 u!=="number"&&0===u[0]){var
-Y=u[1],Z=ij(0,M);return e(function(h){var
-e=k(Y),a=h[2],c=h[1];if(0===c[0]){var
-f=c[1];if(0===a[0]){var
-g=function(a){return a?fd(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(m(f,a[1])){var
-i=k(a[2]),j=[2,[2,k(c[2]),i],e],l=g(a[5]),n=g(c[5]);return[11,aU(f),n,l,j]}var
-o=dC(a);return[10,dC(c),o,e]}var
-p=dC(a);return[10,dC(c),p,e]}var
-q=dC(a);return[10,dC(c),q,e]},Z)}return 0;case
+Y=u[1],Z=iq(0,M);return d(function(h){var
+d=l(Y),b=h[2],c=h[1];if(0===c[0]){var
+f=c[1];if(0===b[0]){var
+g=function(b){return b?fi(b[1]):[0,[0,e,a],[0,e,a],[0,e,a]]};if(m(f,b[1])){var
+i=l(b[2]),j=[2,[2,l(c[2]),i],d],k=g(b[5]),n=g(c[5]);return[11,aY(f),n,k,j]}var
+o=dG(b);return[10,dG(c),o,d]}var
+p=dG(b);return[10,dG(c),p,d]}var
+q=dG(b);return[10,dG(c),q,d]},Z)}return 0;case
 10:var
-v=a[4],L=0;if(typeof
+v=b[4],L=0;if(typeof
 v==="number"||!(1===v[0]))L=1;else{var
-w=a[3],_=v[1];if(!w)return w;var
+w=b[3],_=v[1];if(!w)return w;var
 x=w[1];if(2!==x[0])return 0;var
 $=x[2],aa=x[1],c=function(a){var
-b=k(_),c=k($);return[12,a,k(aa),c,b]}}if(L)return 0;break;case
+b=l(_),c=l($);return[12,a,l(aa),c,b]}}if(L)return 0;break;case
 11:var
 G=typeof
-a[4]==="number"?1:0,ab=G?Dd:G;return ab;case
+b[4]==="number"?1:0,ab=G?DA:G;return ab;case
 12:var
-y=a[4];if(typeof
+y=b[4];if(typeof
 y!=="number"&&1===y[0]){var
-z=a[3];if(z){var
+z=b[3];if(z){var
 H=z[1];if(0===H[0]){var
-ac=k(y[1]);return[0,[14,k(H[1]),ac],0]}return 0}return z}return 0;default:return 0}var
-B=a[2],P=B?[0,aU(B[1]),0]:aA(0,N);return e(c,P)}function
-De(c,a){switch(a[1]){case
+ac=l(y[1]);return[0,[14,l(H[1]),ac],0]}return 0}return z}return 0;default:return 0}var
+B=b[2],P=B?[0,aY(B[1]),0]:ax(0,N);return d(c,P)}function
+DB(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
 l!=="number"&&2!==l[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -7249,7 +7400,7 @@ z!=="number"&&0===z[0])return a[2]?0:a[3]?0:1;return 0;case
 N=0,A=a[4];if(typeof
 A==="number"||!(1===A[0]))N=1;else{var
 h=a[3];if(!h)return h;if(0!==h[1][0])return 0;var
-B=m(c,Dg),O=0;if(B){var
+B=m(c,DD),O=0;if(B){var
 C=a[2];if(C){var
 b=C[1];O=1}else
 var
@@ -7275,122 +7426,122 @@ I=H;return I;case
 12:var
 J=a[4];if(typeof
 J!=="number"&&1===J[0]){if(a[2])return 0;var
-k=a[3];return k?0===k[1][0]?m(c,Dh):0:k}return 0;default:return 0}var
-p=ae(Df,b);return p?ae(b,c):p}function
-ik(c,k,j,b){var
-l=f(c),d=y(function(a){return q4(l,j,a)},b),a=y(Dc,b),h=a?[0,a[1],a[2]]:Di,i=g(h,d),m=q3(k);return[0,e(Db,c),m,i]}function
-q5(b){if(b[1])return 0;var
+k=a[3];return k?0===k[1][0]?m(c,DE):0:k}return 0;default:return 0}var
+p=ae(DC,b);return p?ae(b,c):p}function
+ir(c,k,j,b){var
+l=f(c),e=y(function(a){return rh(l,j,a)},b),a=y(Dz,b),h=a?[0,a[1],a[2]]:DF,i=g(h,e),m=rg(k);return[0,d(Dy,c),m,i]}function
+ri(b){if(b[1])return 0;var
 a=b[4];if(typeof
-a!=="number"&&1===a[0])return[0,[0,k(a[1])],0];return 0}function
-q6(c){function
-a(a){return q(a,e(k,c),[0,d,b])}var
-f=a(Dj),g=a(Dk);return[0,a(0),g,f]}function
-il(_,G,Z,a){switch(a[1]){case
+a!=="number"&&1===a[0])return[0,[0,l(a[1])],0];return 0}function
+rj(c){function
+b(b){return q(b,d(l,c),[0,e,a])}var
+f=b(DG),g=b(DH);return[0,b(0),g,f]}function
+is($,G,_,b){switch(b[1]){case
 0:var
-h=a[4];if(typeof
-h!=="number"&&0===h[0])return[0,[1,k(h[1])],0];return 0;case
+h=b[4];if(typeof
+h!=="number"&&0===h[0])return[0,[1,l(h[1])],0];return 0;case
 1:var
-f=a[4];if(typeof
+f=b[4];if(typeof
 f==="number")return 0;else
 switch(f[0]){case
 0:var
-aa=f[1],c=function(a){return[2,a,k(aa)]};break;case
+aa=f[1],c=function(a){return[2,a,l(aa)]};break;case
 1:var
-ac=f[1],c=function(a){return[3,a,k(ac)]};break;default:var
+ac=f[1],c=function(a){return[3,a,l(ac)]};break;default:var
 ad=f[2],ae=f[1],c=function(a){var
-b=k(ad);return[4,a,k(ae),b]}}break;case
+b=l(ad);return[4,a,l(ae),b]}}break;case
 2:var
-i=a[4],R=0;if(typeof
+i=b[4],R=0;if(typeof
 i==="number"||!(1===i[0]))R=1;else{var
-j=a[3],af=i[1];if(!j)return j;var
+j=b[3],af=i[1];if(!j)return j;var
 I=j[1];if(0!==I[0])return 0;var
 ag=I[1],c=function(a){var
-b=k(ag),c=k(af);return _?[9,a,b,c]:[6,a,b,c]}}if(R)return 0;break;case
+b=l(ag),c=l(af);return $?[9,a,b,c]:[6,a,b,c]}}if(R)return 0;break;case
 3:var
-l=a[4];if(typeof
-l!=="number"&&1===l[0])return[0,[5,k(l[1])],0];return 0;case
+k=b[4];if(typeof
+k!=="number"&&1===k[0])return[0,[5,l(k[1])],0];return 0;case
 4:var
-m=a[4],S=0;if(typeof
+m=b[4],S=0;if(typeof
 m==="number"||!(0===m[0]))S=1;else
 var
-ah=m[1],c=function(a){return[10,a,k(ah)]};if(S)return 0;break;case
+ah=m[1],c=function(a){return[10,a,l(ah)]};if(S)return 0;break;case
 5:var
-n=a[4];if(typeof
-n!=="number"&&0===n[0])return[0,[12,k(n[1])],0];return 0;case
+n=b[4];if(typeof
+n!=="number"&&0===n[0])return[0,[12,l(n[1])],0];return 0;case
 6:var
-o=a[4];if(typeof
+o=b[4];if(typeof
 o!=="number"&&0===o[0]){var
-J=o[1],p=a[3];if(p){var
+J=o[1],p=b[3];if(p){var
 q=p[1];switch(q[0]){case
 0:var
-ai=k(J);return[0,[8,$(k(q[1]),G),ai],0];case
+ai=l(J);return[0,[8,X(l(q[1]),G),ai],0];case
 1:var
-aj=k(J);return[0,[8,e(k,q[1]),aj],0];default:var
+aj=l(J);return[0,[8,d(l,q[1]),aj],0];default:var
 K=0}}else
 var
 K=p;return K}return 0;case
 8:var
-r=a[4],T=0;if(typeof
+r=b[4],T=0;if(typeof
 r==="number"||!(1===r[0]))T=1;else{var
-s=a[3],ak=r[1];if(!s)return s;var
+s=b[3],ak=r[1];if(!s)return s;var
 L=s[1];if(0!==L[0])return 0;var
 al=L[1],c=function(a){var
-b=k(ak);return[7,a,k(al),b]}}if(T)return 0;break;case
+b=l(ak);return[7,a,l(al),b]}}if(T)return 0;break;case
 9:var
-t=a[4];if(typeof
+t=b[4];if(typeof
 t!=="number"&&0===t[0]){var
-am=t[1],an=ij(0,Z);return e(function(a){var
-b=k(am),c=dC(a[2]);return[14,dC(a[1]),c,b]},an)}return 0;case
+am=t[1],an=iq(0,_);return d(function(a){var
+b=l(am),c=dG(a[2]);return[14,dG(a[1]),c,b]},an)}return 0;case
 10:var
-u=a[4],U=0;if(typeof
+u=b[4],U=0;if(typeof
 u==="number"||!(1===u[0]))U=1;else{var
-v=a[3],ao=u[1];if(!v)return v;var
+v=b[3],ao=u[1];if(!v)return v;var
 w=v[1];if(2!==w[0])return 0;var
 ap=w[2],aq=w[1],c=function(a){var
-b=k(ao),c=k(ap);return[15,a,k(aq),c,b]}}if(U)return 0;break;case
+b=l(ao),c=l(ap);return[15,a,l(aq),c,b]}}if(U)return 0;break;case
 12:var
-x=a[4];if(typeof
+x=b[4];if(typeof
 x!=="number"&&1===x[0]){var
-M=x[1],y=a[3];if(y){var
+M=x[1],y=b[3];if(y){var
 g=y[1];switch(g[0]){case
 0:var
-ar=k(M);return[0,[16,k(g[1]),ar,[0,d,b]],0];case
+ar=l(M);return[0,[16,l(g[1]),ar,[0,e,a]],0];case
 3:var
-as=k(g[2]),at=k(M);return[0,[16,k(g[1]),at,as],0];default:var
+as=l(g[2]),at=l(M);return[0,[16,l(g[1]),at,as],0];default:var
 N=0}}else
 var
 N=y;return N}return 0;case
 13:var
-z=a[4],V=0;if(typeof
+z=b[4],V=0;if(typeof
 z==="number"||!(1===z[0]))V=1;else
 var
-au=z[1],c=function(a){return[11,a,k(au)]};if(V)return 0;break;case
+au=z[1],c=function(a){return[11,a,l(au)]};if(V)return 0;break;case
 14:var
-A=a[4],W=0;if(typeof
+A=b[4],W=0;if(typeof
 A==="number"||!(1===A[0]))W=1;else{var
-B=a[3],av=A[1];if(!B)return B;var
+B=b[3],av=A[1];if(!B)return B;var
 O=B[1];if(1!==O[0])return 0;var
 aw=O[1],c=function(a){var
-b=k(av);return[13,a,0,q6(aw),b]}}if(W)return 0;break;case
+b=l(av);return[13,a,0,rj(aw),b]}}if(W)return 0;break;case
 15:var
-C=a[4],X=0;if(typeof
-C==="number"||!(1===C[0]))X=1;else{var
-D=a[3],ax=C[1];if(!D)return D;var
+C=b[4],Y=0;if(typeof
+C==="number"||!(1===C[0]))Y=1;else{var
+D=b[3],ay=C[1];if(!D)return D;var
 P=D[1];if(1!==P[0])return 0;var
-ay=P[1],c=function(a){var
-b=k(ax);return[13,a,1,q6(ay),b]}}if(X)return 0;break;case
+az=P[1],c=function(a){var
+b=l(ay);return[13,a,1,rj(az),b]}}if(Y)return 0;break;case
 16:var
-E=a[4],Y=0;if(typeof
-E==="number"||!(1===E[0]))Y=1;else{var
-F=a[3],az=E[1];if(!F)return F;var
+E=b[4],Z=0;if(typeof
+E==="number"||!(1===E[0]))Z=1;else{var
+F=b[3],aA=E[1];if(!F)return F;var
 Q=F[1];if(1!==Q[0])return 0;var
 aB=Q[1],c=function(a){var
-b=k(az);return[17,a,e(k,aB),b]}}if(Y)return 0;break;default:return 0}var
-H=a[2],ab=H?[0,aU(H[1]),0]:aA(0,G);return e(c,ab)}function
-fe(e,d,c,b){var
-f=y(function(a){return il(e,d,c,a)},b),a=y(q5,b),h=a?[0,a[1],a[2]]:Dl;return g(h,f)}function
-c4(a){return 11===a[1]?1:0}function
-cD(n,m,a){var
+b=l(aA);return[17,a,d(l,aB),b]}}if(Z)return 0;break;default:return 0}var
+H=b[2],ab=H?[0,aY(H[1]),0]:ax(0,G);return d(c,ab)}function
+fj(e,d,c,b){var
+f=y(function(a){return is(e,d,c,a)},b),a=y(ri,b),h=a?[0,a[1],a[2]]:DI;return g(h,f)}function
+c_(a){return 11===a[1]?1:0}function
+cE(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
 c=a[4];if(typeof
@@ -7400,25 +7551,25 @@ l=0,d=a[4];if(typeof
 d!=="number"&&2===d[0]){var
 e=1;l=1}if(!l)var
 e=0;var
-f=cM(n,e);if(f){var
+f=cN(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=ae(Dm,h);return i?ae(h,m):i}var
+h=g[1],i=ae(DJ,h);return i?ae(h,m):i}var
 j=1}else
 var
 j=f;return j;case
 3:var
 k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
-aY(s,b,a){var
+aZ(s,b,a){var
 d=a[2];if(d)var
-e=d[1],g=ae(Dn,e),t=g?ae(e,b):g,c=t;else
+e=d[1],g=ae(DK,e),t=g?ae(e,b):g,c=t;else
 var
 c=1;var
 h=a[1];if(!(9<=h))switch(h){case
 2:var
 i=a[4];if(typeof
 i!=="number"&&1===i[0]){var
-j=a[3];return j?0===j[1][0]?c:cD(0,b,a):cD(0,b,a)}return cD(0,b,a);case
+j=a[3];return j?0===j[1][0]?c:cE(0,b,a):cE(0,b,a)}return cE(0,b,a);case
 6:var
 k=a[4];if(typeof
 k!=="number"&&0===k[0]){var
@@ -7429,123 +7580,123 @@ n=l[1];switch(n[0]){case
 o=m(f(n[1]),b);if(o){if(a[2])return 0;var
 p=1}else
 var
-p=o;return p;default:return cD(0,b,a)}}return cD(0,b,a)}return cD(0,b,a);case
+p=o;return p;default:return cE(0,b,a)}}return cE(0,b,a)}return cE(0,b,a);case
 8:var
 q=a[4];if(typeof
 q!=="number"&&1===q[0]){var
-r=a[3];return r?0===r[1][0]?c?m(b,s):c:cD(0,b,a):cD(0,b,a)}return cD(0,b,a)}return cD(0,b,a)}function
-aM(c,b,a){return 11===a[1]?typeof
-a[4]==="number"?a[2]?aY(c,b,a):a[3]?aY(c,b,a):1:aY(c,b,a):aY(c,b,a)}function
-q7(g,b,c,a){var
+r=a[3];return r?0===r[1][0]?c?m(b,s):c:cE(0,b,a):cE(0,b,a)}return cE(0,b,a)}return cE(0,b,a)}function
+aN(c,b,a){return 11===a[1]?typeof
+a[4]==="number"?a[2]?aZ(c,b,a):a[3]?aZ(c,b,a):1:aZ(c,b,a):aZ(c,b,a)}function
+rk(g,b,c,a){var
 h=a[2];if(h)var
-i=h[1],j=ae(Dp,i),G=j?ae(i,c):j,d=G;else
+i=h[1],j=ae(DM,i),G=j?ae(i,c):j,d=G;else
 var
 d=1;switch(a[1]){case
-1:if(a[3])return aY(ap(b),c,a);if(d){var
+1:if(a[3])return aZ(as(b),c,a);if(d){var
 F=0,k=a[4];if(typeof
 k!=="number"&&2===k[0]){var
 l=1;F=1}if(!F)var
-l=0;return cM(g,l)}return d;case
+l=0;return cN(g,l)}return d;case
 4:var
 n=a[4];if(typeof
-n!=="number"&&0===n[0])return a[3]?aY(ap(b),c,a):d;return aY(ap(b),c,a);case
+n!=="number"&&0===n[0])return a[3]?aZ(as(b),c,a):d;return aZ(as(b),c,a);case
 5:var
 o=a[4];if(typeof
-o!=="number"&&0===o[0]){if(a[3])return aY(ap(b),c,a);var
-p=m(c,ap(b));if(p){var
+o!=="number"&&0===o[0]){if(a[3])return aZ(as(b),c,a);var
+p=m(c,as(b));if(p){var
 q=typeof
 b==="number"?1:0;if(q){if(a[2])return 0;var
 e=1}else
 var
 e=q}else
 var
-e=p;return e}return aY(ap(b),c,a);case
+e=p;return e}return aZ(as(b),c,a);case
 10:var
 r=a[4];if(typeof
 r!=="number"&&1===r[0]){var
-s=a[3];return s?2===s[1][0]?d:aY(ap(b),c,a):aY(ap(b),c,a)}return aY(ap(b),c,a);case
+s=a[3];return s?2===s[1][0]?d:aZ(as(b),c,a):aZ(as(b),c,a)}return aZ(as(b),c,a);case
 12:var
 t=a[4];if(typeof
 t!=="number"&&1===t[0]){var
 u=a[3];if(u){var
-v=u[1],w=m(c,ap(b));return w?typeof
-b==="number"?a[2]?0:0===v[0]?1:0:a[2]?0:3===v[0]?1:0:w}return aY(ap(b),c,a)}return aY(ap(b),c,a);case
+v=u[1],w=m(c,as(b));return w?typeof
+b==="number"?a[2]?0:0===v[0]?1:0:a[2]?0:3===v[0]?1:0:w}return aZ(as(b),c,a)}return aZ(as(b),c,a);case
 13:var
 x=a[4];if(typeof
-x!=="number"&&1===x[0])return a[3]?aY(ap(b),c,a):d?J(g):d;return aY(ap(b),c,a);case
+x!=="number"&&1===x[0])return a[3]?aZ(as(b),c,a):d?L(g):d;return aZ(as(b),c,a);case
 16:var
 y=a[4];if(typeof
 y!=="number"&&1===y[0]){var
 z=a[3];if(z){var
 A=z[1];if(1===A[0]){var
-B=d?m(c,ap(b)):d,C=B?m(f(A[1]),c):B;if(C)var
+B=d?m(c,as(b)):d,C=B?m(f(A[1]),c):B;if(C)var
 D=typeof
 b==="number"?1:0,E=D?1:D;else
 var
-E=C;return E}return aY(ap(b),c,a)}return aY(ap(b),c,a)}return aY(ap(b),c,a);default:return aY(ap(b),c,a)}}function
-dD(a){switch(a[0]){case
-0:return[0,k([0,a[1],a[2]])];case
+E=C;return E}return aZ(as(b),c,a)}return aZ(as(b),c,a)}return aZ(as(b),c,a);default:return aZ(as(b),c,a)}}function
+dH(a){switch(a[0]){case
+0:return[0,l([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,dD(a[1])];case
+2:return[2,dH(a[1])];case
 3:var
-b=dD(a[2]),c=dD(a[3]);switch(a[1]){case
+b=dH(a[2]),c=dH(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,dD(a[1]),d];default:return[8,dD(a[1])]}}function
-k_(i,h,g,b,d,c,a){var
-j=ag(c4,a),l=fe(0,f(b),0,a),m=N(d,c),n=e(function(a){var
-b=k(a[2]);return[0,k(a[1]),b]},m),o=e(function(a){return 0===a[0]?[0,e(dD,a[1])]:[1,dD(a[1])]},b),p=e(function(a){var
-b=dD(a[2]);return[0,a[1],b]},g);return[0,[0,i,e(function(a){var
-b=cf(a[2]);return[0,a[1],b]},h),p,o],n,l,j]}function
-k$(c){function
-a(e){var
-a=[0,d,b];return q(e,c,[0,a,a])}var
-e=a(Dq),f=a(Dr);return[0,a(0),f,e]}function
-ek(a){function
+d=a[2];return[7,dH(a[1]),d];default:return[8,dH(a[1])]}}function
+lf(i,h,g,b,e,c,a){var
+j=ag(c_,a),k=fj(0,f(b),0,a),m=M(e,c),n=d(function(a){var
+b=l(a[2]);return[0,l(a[1]),b]},m),o=d(function(a){return 0===a[0]?[0,d(dH,a[1])]:[1,dH(a[1])]},b),p=d(function(a){var
+b=dH(a[2]);return[0,a[1],b]},g);return[0,[0,i,d(function(a){var
+b=ci(a[2]);return[0,a[1],b]},h),p,o],n,k,j]}function
+lg(c){function
+b(d){var
+b=[0,e,a];return q(d,c,[0,b,b])}var
+d=b(DN),f=b(DO);return[0,b(0),f,d]}function
+eo(a){function
 b(a){var
-b=k(a[2]);return[0,k(a[1]),b]}switch(a[0]){case
+b=l(a[2]);return[0,l(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
 1:var
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
-2:return[2,k(a[1])];default:var
-e=k(a[2]);return[3,k(a[1]),e]}}function
-q8(a){if(0===a[0]){var
-b=N(a[1],a[2]);return[0,k$(e(function(a){var
-b=k(a[2]);return[0,k(a[1]),b]},b))]}return q3([1,a[1],a[2],a[3],a[4],a[5]])}function
-q9(j,b,i,h,g,d,a){function
-c(a){return k$(e(cf,a))}var
-l=ag(c4,a),m=fe(0,f(b),d,a),n=ek(g),o=q8(h),p=k(i);return[0,j,e(function(a){var
-b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,l]}function
-el(a){return ag(function(a){return 3===a[0]?1:0},a)}function
-la(j,a,g,i,h,c){var
-l=ag(c4,c),m=f(a),n=fe(el(a),m,0,c),o=x(ek,h),p=q8(i),q=g?k(g[1]):[0,b,b];return[0,j,e(function(a){function
-c(a){return k$(e(cf,a))}switch(a[0]){case
+2:return[2,l(a[1])];default:var
+e=l(a[2]);return[3,l(a[1]),e]}}function
+rl(a){if(0===a[0]){var
+b=M(a[1],a[2]);return[0,lg(d(function(a){var
+b=l(a[2]);return[0,l(a[1]),b]},b))]}return rg([1,a[1],a[2],a[3],a[4],a[5]])}function
+rm(j,b,i,h,g,e,a){function
+c(a){return lg(d(ci,a))}var
+k=ag(c_,a),m=fj(0,f(b),e,a),n=eo(g),o=rl(h),p=l(i);return[0,j,d(function(a){var
+b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,k]}function
+ep(a){return ag(function(a){return 3===a[0]?1:0},a)}function
+lh(j,b,g,i,h,c){var
+k=ag(c_,c),m=f(b),n=fj(ep(b),m,0,c),o=x(eo,h),p=rl(i),q=g?l(g[1]):[0,a,a];return[0,j,d(function(b){function
+c(a){return lg(d(ci,a))}switch(b[0]){case
 0:var
-k=a[5],l=cf(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
+k=b[5],l=ci(b[4]),m=c(b[3]),n=c(b[2]);return[0,[0,[0,c(b[1]),n,m,l,k]]];case
 1:var
-o=x(c,a[3]),p=c(a[2]);return[0,[1,c(a[1]),p,o]];case
-2:return[0,[2,c(a[1])]];default:var
-f=a[1];if(f)var
+o=x(c,b[3]),p=c(b[2]);return[0,[1,c(b[1]),p,o]];case
+2:return[0,[2,c(b[1])]];default:var
+f=b[1];if(f)var
 g=c(f);else
 var
-h=[0,b,b],i=[0,d,b],j=[0,d,b],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
-q=a[7],r=cf(a[6]),s=cf(a[5]),t=c(a[4]),u=c(a[3]);return[1,[0,g,c(a[2]),u,t,s,r,q]]}},a),q,p,o,n,l]}function
-cg(c){var
+h=[0,a,a],i=[0,e,a],j=[0,e,a],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
+q=b[7],r=ci(b[6]),s=ci(b[5]),t=c(b[4]),u=c(b[3]);return[1,[0,g,c(b[2]),u,t,s,r,q]]}},b),q,p,o,n,k]}function
+cj(c){var
 a=c[1];if(13!==a){var
 b=16<=a?1:0;if(!b)return b}return 1}function
-lb(a){function
+li(a){function
 b(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}switch(a[0]){case
 0:var
 c=a[5],d=a[4],e=b(a[3]),f=b(a[2]);return[0,b(a[1]),f,e,d,c];case
 1:var
 g=x(b,a[3]),h=b(a[2]);return[1,b(a[1]),h,g];default:return[2,b(a[1])]}}function
-lc(a){if(0===a[0]){var
+lj(a){if(0===a[0]){var
 b=a[2],c=a[1];return[0,[0,c[1],[0,c[2],[0,c[3],0]]],[0,b[1],[0,b[2],[0,b[3],0]]]]}return[1,a[1],a[2],a[3],a[4],a[5]]}function
-q_(a){return a[1]?0:1}function
-q$(l){var
-b=aW(q_,l);if(b){var
+rn(a){return a[1]?0:1}function
+ro(l){var
+b=aP(rn,l);if(b){var
 d=b[1];if(d[2])return 0;if(d[3])return 0;var
 c=d[4],a=b[2];if(typeof
 c!=="number")switch(c[0]){case
@@ -7566,69 +7717,69 @@ k=a;return k}var
 i=0}else
 var
 i=b;return i}function
-ra(a){var
-c=q_(a);if(c)return c;if(1===a[1]){var
+rp(a){var
+c=rn(a);if(c)return c;if(1===a[1]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return 1;return 0}return 0}function
-im(i,h,b){function
+it(i,h,b){function
 c(b,a){return[3,1,b,a]}function
 a(b,a){return[3,3,b,a]}function
 d(b,a){return[3,2,b,a]}function
 e(b,a){return[3,0,b,a]}var
-f=c(io,a(io,b)),j=a(f,ld),k=i?f:a(c(b,io),ld);function
-g(b){return a(b,[5,e(io,d(ld,d(b,b)))])}var
+f=c(iu,a(iu,b)),j=a(f,lk),k=i?f:a(c(b,iu),lk);function
+g(b){return a(b,[5,e(iu,d(lk,d(b,b)))])}var
 l=g(k);return a(h,e(g(j),l))}function
-ip(f,e,d){function
+iv(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,le,a(le,d)],rb),g=a(c,[5,[3,0,le,b(rb,b(c,c))]]);return[2,b(im(f,e,d),g)]}function
-lf(e,g,a){function
+c=a([3,1,ll,a(ll,d)],rq),g=a(c,[5,[3,0,ll,b(rq,b(c,c))]]);return[2,b(it(f,e,d),g)]}function
+lm(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
-h=f(iq,b(iq,a)),d=e?h:b(f(a,iq),rc),i=b(d,[5,[3,0,iq,c(rc,c(d,d))]]);return c(im(e,g,a),i)}function
-rd(c,g,b,a){function
-d(b,a){return e(function(c){var
-d=m(b,c)?a:Ds;return[0,d]},Du)}return e(function(e){var
-j=[0,im(c,b,a)],i=1,k=d(e,[2,g]);function
+h=f(iw,b(iw,a)),d=e?h:b(f(a,iw),rr),i=b(d,[5,[3,0,iw,c(rr,c(d,d))]]);return c(it(e,g,a),i)}function
+rs(c,g,b,a){function
+e(b,a){return d(function(c){var
+d=m(b,c)?a:DP;return[0,d]},DR)}return d(function(d){var
+j=[0,it(c,b,a)],i=1,k=e(d,[2,g]);function
 f(b,a){return[3,1,b,a]}var
-h=im(c,b,a),l=d(e,f(f(ip(c,b,a),g),h));return[0,d(e,Dt),l,k,j,i]},Dv)}function
-re(c,b,a){var
-d=[0,lf(c,b,a),0],e=[0,lf(c,b,a),d],f=[0,lf(c,b,a),e],g=[0,ip(c,b,a),0],h=[0,ip(c,b,a),g];return[0,[0,ip(c,b,a),h],f]}function
-rf(o,e,a){if(e)if(a){var
-g=e[1],h=a[1],j=cU(k(g[2][1]));if(j){var
-l=j[1],m=cU(k(g[2][2]));if(m)var
-p=m[1],n=function(a){function
+h=it(c,b,a),l=e(d,f(f(iv(c,b,a),g),h));return[0,e(d,DQ),l,k,j,i]},DS)}function
+rt(c,b,a){var
+d=[0,lm(c,b,a),0],e=[0,lm(c,b,a),d],f=[0,lm(c,b,a),e],g=[0,iv(c,b,a),0],h=[0,iv(c,b,a),g];return[0,[0,iv(c,b,a),h],f]}function
+ru(o,d,b){if(d)if(b){var
+g=d[1],h=b[1],j=cV(l(g[2][1]));if(j){var
+k=j[1],m=cV(l(g[2][2]));if(m)var
+p=m[1],n=function(b){function
 d(a){return c(2,a)}var
-e=[0,a,gT(h[2],d,b)];return dP(l,bb(dQ(p,l),e))},q=n(G(h[1],b)),f=[0,n(h[1]),q];else
+e=[0,b,g0(h[2],d,a)];return dQ(k,bb(dR(p,k),e))},q=n(G(h[1],a)),f=[0,n(h[1]),q];else
 var
-f=[0,[0,d,b],[0,d,b]]}else
+f=[0,[0,e,a],[0,e,a]]}else
 var
-f=[0,[0,d,b],[0,d,b]];var
-r=rf([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+f=[0,[0,e,a],[0,e,a]];var
+r=ru([0,o],d[2],b[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
-i=a;else
+i=b;else
 var
-i=e;return i}function
-aC(b,a){switch(a[0]){case
+i=d;return i}function
+aD(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=mE(function(a){return aJ(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
-2:return[2,aC(b,a[1])];case
+e=c[1],d=mK(function(a){return aM(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+2:return[2,aD(b,a[1])];case
 3:var
-f=aC(b,a[3]),g=aC(b,a[2]);return[3,a[1],g,f];case
+f=aD(b,a[3]),g=aD(b,a[2]);return[3,a[1],g,f];case
 4:var
-h=a[2];return[4,aC(b,a[1]),h];default:return[5,aC(b,a[1])]}}function
-rg(b,a){if(0===a[0])return[0,aC(b,a[1])];var
-c=aC(b,a[2]);return[1,aC(b,a[1]),c]}function
-lg(b,a){var
+h=a[2];return[4,aD(b,a[1]),h];default:return[5,aD(b,a[1])]}}function
+rv(b,a){if(0===a[0])return[0,aD(b,a[1])];var
+c=aD(b,a[2]);return[1,aD(b,a[1]),c]}function
+ln(b,a){var
 c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]}function
-lh(c,a){if(c)if(a){var
+lo(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=lh(h,g);if(e){var
-i=e[1],f=lh(h,i[2]);if(f)var
+e=lo(h,g);if(e){var
+i=e[1],f=lo(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -7640,69 +7791,69 @@ var
 d=a;else
 var
 d=c;return d}function
-li(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,li(g,f[1],h)];var
-j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,G(E(c(2,b),l),k),j],h]}else
+lp(g,f,b){if(b){var
+d=b[1],h=b[2];if(f)return[0,d,lp(g,f[1],h)];var
+j=[0,d[2]],k=g?a:e,l=d[1],i=[0,[0,G(E(c(2,a),l),k),j],h]}else
 var
-i=a;return i}function
-Dw(a){if(typeof
+i=b;return i}function
+DT(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-Dx(a){if(typeof
+DU(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-ir(e,a){if(0===a[0]){var
-f=[0,b,c(2,b)],g=ir(e,a[3]);return bb(dP(ir(e,a[2]),g),f)}return h(e,a[1])?[0,b,b]:[0,d,b]}function
-rh(a){return 0===a[0]?eY(a[1][4]):0}function
-ri(a){switch(a[0]){case
+ix(d,b){if(0===b[0]){var
+f=[0,a,c(2,a)],g=ix(d,b[3]);return bb(dQ(ix(d,b[2]),g),f)}return h(d,b[1])?[0,a,a]:[0,e,a]}function
+rw(a){return 0===a[0]?e4(a[1][4]):0}function
+rx(a){switch(a[0]){case
 0:var
 b=a[1],c=bk(b[3]);return g(bk(b[2]),c);case
 1:var
 d=bk(a[2]);return g(bk(a[1]),d);default:return 0}}function
-is(a){switch(a[0]){case
-0:return bU(bk(a[1][1]));case
+iy(a){switch(a[0]){case
+0:return bX(bk(a[1][1]));case
 1:var
-b=a[3];return b?bU(bk(b[1])):d;default:return bU(bk(a[1]))}}function
-it(c){var
-a=y(rh,c),d=a?[0,a[1],a[2]]:y(ri,c);return G(b,bU(d))}function
-rj(d,c){if(d){if(c){var
-a=c[1],e=d[1],f=rj(d[2],c[2]);if(f){var
+b=a[3];return b?bX(bk(b[1])):e;default:return bX(bk(a[1]))}}function
+iz(c){var
+b=y(rw,c),d=b?[0,b[1],b[2]]:y(rx,c);return G(a,bX(d))}function
+ry(d,c){if(d){if(c){var
+a=c[1],e=d[1],f=ry(d[2],c[2]);if(f){var
 i=f[1],j=i[1],g=j[2],k=j[1],l=i[2];if(45===a)var
-b=Dy;else
+b=DV;else
 if(43===a)var
-b=Dz;else
+b=DW;else
 if(48===a)var
-b=DA;else
+b=DX;else
 if(60===a)var
-b=DB;else
+b=DY;else
 if(62===a)var
-b=DC;else
+b=DZ;else
 var
-h=61===a?1:0,q=h?DD:h,b=q;if(b){var
+h=61===a?1:0,q=h?D0:h,b=q;if(b){var
 m=b[1],r=m[2]?[0,e,g]:g;return[0,[0,[0,[0,[0,e,m[1]],k],r],l]]}var
 n=49===a?1:0,s=n?[0,[0,[0,k,g],[0,e,l]]]:n,o=s}else
 var
 o=f;var
 p=o}else
 var
-p=c;return p}return c?0:DE}function
-dE(b,c,a){switch(a[0]){case
+p=c;return p}return c?0:D1}function
+c$(b,c,a){switch(a[0]){case
 0:var
-g=a[1];if(aJ(g,DF))return DG;if(aJ(g,DH))return DI;if(aJ(g,DJ))return DK;if(aJ(g,DL))return DM;if(aJ(g,DN))return DO;var
-u=aJ(g,DP),P=u?DQ:u;return P;case
+g=a[1];if(aM(g,D2))return D3;if(aM(g,D4))return D5;if(aM(g,D6))return D7;if(aM(g,D8))return D9;if(aM(g,D_))return D$;var
+u=aM(g,Ea),P=u?Eb:u;return P;case
 1:var
-h=a[3],i=a[2],j=a[1];if(aJ(j,DR))return[0,[0,h,i]];if(aJ(j,DS))return[0,[1,h,i]];if(aJ(j,DT))return[0,[2,h,i]];var
-v=aJ(j,DU),Q=v?[0,[8,h,i]]:v;return Q;case
+h=a[3],i=a[2],j=a[1];if(aM(j,Ec))return[0,[0,h,i]];if(aM(j,Ed))return[0,[1,h,i]];if(aM(j,Ee))return[0,[2,h,i]];var
+v=aM(j,Ef),Q=v?[0,[8,h,i]]:v;return Q;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3],a[4]]];case
 5:var
-n=dE(b,c,a[1]),R=n?[0,[5,n[1],a[2],a[3]]]:n;return R;case
+n=c$(b,c,a[1]),R=n?[0,[5,n[1],a[2],a[3]]]:n;return R;case
 6:var
-o=dE(b,c,a[1]),S=o?[0,[7,o[1],a[2],a[3]]]:o;return S;case
+o=c$(b,c,a[1]),S=o?[0,[7,o[1],a[2],a[3]]]:o;return S;case
 7:var
-T=dE(b,c,a[1]);return x(function(a){return[6,a]},T);case
+T=c$(b,c,a[1]);return x(function(a){return[6,a]},T);case
 8:if(b){var
-w=a[3],y=a[2],p=dE(b,c,a[1]);if(p){var
-z=p[1],q=rj(b,ja(i$(aG(y),function(a){return be(y,a)})));if(q){var
+w=a[3],y=a[2],p=c$(b,c,a[1]);if(p){var
+z=p[1],q=ry(b,jg(jf(aI(y),function(a){return be(y,a)})));if(q){var
 A=q[1],B=A[1],C=B[2],D=B[1],E=A[2];if(E)return[0,[11,c,E,[10,z,D,C,w]]];var
 F=[0,[10,z,D,C,w]]}else
 var
@@ -7714,36 +7865,38 @@ I=G}else
 var
 I=b;return I;case
 9:var
-K=function(a){if(a){var
-f=a[1],d=dE(b,c,f[2]);if(d)var
-e=K(a[2]),h=e?[0,[0,[0,f[1],d[1]],e[1]]]:e,g=h;else
+J=function(a){if(a){var
+f=a[1],d=c$(b,c,f[2]);if(d)var
+e=J(a[2]),h=e?[0,[0,[0,f[1],d[1]],e[1]]]:e,g=h;else
 var
-g=d;return g}return DV},U=K(a[1]);return x(function(a){return[12,a]},U);default:var
-L=a[3],t=l(function(a){var
-c=f(b);return m(f(a),c)},L),k=t?[0,e(function(a){var
-c=N(b,a);return aW(function(a){return J(H(a[2],d))},c)},L)]:t;if(k){var
-r=dE(b,c,a[4]);if(r)var
-s=dE(b,c,a[5]),V=s?[0,[13,a[2],a[1],k[1],r[1],s[1]]]:s,M=V;else
+g=d;return g}return Eg},U=J(a[1]);return x(function(a){return[12,a]},U);case
+10:var
+K=a[3],t=k(function(a){var
+c=f(b);return m(f(a),c)},K),l=t?[0,d(function(a){var
+c=M(b,a);return aP(function(a){return L(H(a[2],e))},c)},K)]:t;if(l){var
+r=c$(b,c,a[4]);if(r)var
+s=c$(b,c,a[5]),V=s?[0,[13,a[2],a[1],l[1],r[1],s[1]]]:s,N=V;else
 var
-M=r;var
-O=M}else
+N=r;var
+O=N}else
 var
-O=k;return O}}function
-rk(e,d,a){if(a){var
-f=a[1],b=dE(e,d,f[2]);if(b)var
-c=rk(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
+O=l;return O;default:var
+W=a[3],X=a[2],Y=c$(b,c,a[1]);return x(function(a){return[14,a,W,X]},Y)}}function
+rz(e,d,a){if(a){var
+f=a[1],b=c$(e,d,f[2]);if(b)var
+c=rz(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
 var
-g=b;return g}return DW}function
-em(b,g,f,e,d,a){if(d)if(a){var
+g=b;return g}return Eh}function
+eq(b,g,f,e,d,a){if(d)if(a){var
 c=a[1];if(c[3])return 0;if(c[4])return 0;var
-n=c[2],o=a[2],p=d[1],h=rk(f,e,c[1]);if(h){var
+n=c[2],o=a[2],p=d[1],h=rz(f,e,c[1]);if(h){var
 i=h[1];if(n){var
-j=em(b,g,f,e,p,o);if(j){var
-q=j[1],k=em(b,g,f,e,p,q[2]);if(k){var
-r=k[1],s=r[1],t=q[1],l=n[1],z=r[2];if(aF(l,b))var
+j=eq(b,g,f,e,p,o);if(j){var
+q=j[1],k=eq(b,g,f,e,p,q[2]);if(k){var
+r=k[1],s=r[1],t=q[1],l=n[1],z=r[2];if(aE(l,b))var
 u=[0,[1,i,l,t,s]];else
 var
-y=F(g,dN(l,b)),u=x(function(a){return[2,i,a,t,s]},y);return x(function(a){return[0,a,z]},u)}var
+y=F(g,dO(l,b)),u=x(function(a){return[2,i,a,t,s]},y);return x(function(a){return[0,a,z]},u)}var
 v=k}else
 var
 v=j;return v}var
@@ -7755,67 +7908,67 @@ var
 m=a;else
 var
 m=d;return m}function
-lj(i,h,g,e,d,a){if(d){if(a){var
-b=em(i,h,g,e,f(a),a);if(b)var
-j=b[1],c=lj(i,h,g,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
+lq(i,h,g,e,d,a){if(d){if(a){var
+b=eq(i,h,g,e,f(a),a);if(b)var
+j=b[1],c=lq(i,h,g,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
 var
-k=b;return k}return DX}return a?0:DY}function
-rl(a){if(typeof
-a==="number")return 0===a?DZ:D0;else
+k=b;return k}return Ei}return a?0:Ej}function
+rA(a){if(typeof
+a==="number")return 0===a?Ek:El;else
 switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return[0,[1,a[1],a[2]]];default:return 0}}function
-lk(e,d,a){if(d)if(a){var
+lr(e,d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 j=b[4],c=b[3],k=b[2],l=a[2],m=d[1];if(k){if(c)return 0;if(j)return 0;var
-f=k[1],g=lk(e,m,l);if(g){var
-n=g[1],o=n[1],h=lk(e,m,n[2]);if(h){var
-p=h[1],q=p[2],r=p[1];if(aF(f,D1))return[0,[0,[1,f,o,r],q]];var
-t=F(e,dN(f,D2));return x(function(a){return[0,[2,a,o,r],q]},t)}var
+f=k[1],g=lr(e,m,l);if(g){var
+n=g[1],o=n[1],h=lr(e,m,n[2]);if(h){var
+p=h[1],q=p[2],r=p[1];if(aE(f,Em))return[0,[0,[1,f,o,r],q]];var
+t=F(e,dO(f,En));return x(function(a){return[0,[2,a,o,r],q]},t)}var
 s=h}else
 var
 s=g;return s}if(c){var
-u=rl(c[1]);return x(function(a){return[0,[0,j,a],l]},u)}var
+u=rA(c[1]);return x(function(a){return[0,[0,j,a],l]},u)}var
 i=c}else
 var
 i=a;else
 var
 i=d;return i}function
-dF(b,a){return 0===b[0]?[0,k(b[1]),a]:a?[0,a[1],a[2]]:[0,k(b[1]),0]}function
-en(a,e){var
-b=dF(a[1],e),c=dF(a[2],b[2]),d=dF(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-rm(d,c){if(d){var
+dI(b,a){return 0===b[0]?[0,l(b[1]),a]:a?[0,a[1],a[2]]:[0,l(b[1]),0]}function
+er(a,e){var
+b=dI(a[1],e),c=dI(a[2],b[2]),d=dI(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+rB(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=en(a[1],c),f=en(a[2],e[2]),g=en(a[3],f[2]),h=dF(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=er(a[1],c),f=er(a[2],e[2]),g=er(a[3],f[2]),h=dI(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=en(a[1],c),k=j[1],l=en(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=en(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=er(a[1],c),k=j[1],l=er(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=er(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=en(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=rm(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-gq(t,g){var
+p=er(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=rB(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+gw(t,g){var
 u=t[3];if(typeof
-g==="number")return 0===g?D6:D7;else
+g==="number")return 0===g?Er:Es;else
 switch(g[0]){case
 0:var
 v=g[2],h=g[1],B=F(u,h);if(B){var
 ab=0,C=B[1];if(typeof
 C==="number"||!(13===C[0]))ab=1;else
 var
-y=t[1],A=it(y),a=e(function(a){var
-g=f(y);if(m(f(a),g)){var
-h=N(y,a);return e(function(a){var
-e=a[2],f=D(d,A),g=2===a[1][0]?1:0;return cM(g,f)?E(e,cm(c(2,b),cK(A))):e},h)}return a},v);if(ab)var
-a=v}else
+y=t[1],A=iz(y),b=d(function(b){var
+g=f(y);if(m(f(b),g)){var
+h=M(y,b);return d(function(b){var
+d=b[2],f=D(e,A),g=2===b[1][0]?1:0;return cN(g,f)?E(d,cp(c(2,a),cL(A))):d},h)}return b},v);if(ab)var
+b=v}else
 var
-a=v;var
+b=v;var
 ac=F(u,h),ad=t[1],w=x(function(b){if(typeof
 b!=="number")switch(b[0]){case
-5:return D4;case
+5:return Ep;case
 12:var
-a=F(ad,b[1]);if(a){if(2===a[1][0])return D5;var
+a=F(ad,b[1]);if(a){if(2===a[1][0])return Eq;var
 c=0}else
 var
 c=a;return c;case
@@ -7824,13 +7977,13 @@ c=a;return c;case
 4:case
 6:case
 7:case
-11:return 0}return D3},ac);if(w){var
+11:return 0}return Eo},ac);if(w){var
 G=w[1];if(G){var
-H=G[1];if(H){if(H[1])return 0;if(a){var
-i=a[1];if(i){var
+H=G[1];if(H){if(H[1])return 0;if(b){var
+i=b[1];if(i){var
 j=i[2];if(j){var
 k=j[2];if(k){if(k[2])return 0;var
-l=a[2];if(l){var
+l=b[2];if(l){var
 n=l[1];if(n){var
 o=n[2];if(o){var
 p=o[2];if(p){if(p[2])return 0;if(l[2])return 0;var
@@ -7846,10 +7999,10 @@ K=n;var
 L=K}else
 var
 L=l;var
-M=L}else
+N=L}else
 var
-M=k;var
-O=M}else
+N=k;var
+O=N}else
 var
 O=j;var
 P=O}else
@@ -7857,10 +8010,10 @@ var
 P=i;var
 Q=P}else
 var
-Q=a;return Q}if(a){var
-q=a[1];if(q){var
+Q=b;return Q}if(b){var
+q=b[1];if(q){var
 r=q[2];if(r){var
-s=r[2];if(s){if(s[2])return 0;if(a[2])return 0;var
+s=r[2];if(s){if(s[2])return 0;if(b[2])return 0;var
 R=s[1],S=r[1],T=q[1],U=[0,[0,h,[0,[0,T,S],R],[0,[0,T,S],R]]]}else
 var
 U=s;var
@@ -7872,8 +8025,8 @@ var
 W=q;var
 X=W}else
 var
-X=a;return X}if(a)return 0;var
-Y=[0,[0,d,d],d],Z=[0,[0,h,Y,Y]]}else
+X=b;return X}if(b)return 0;var
+Y=[0,[0,e,e],e],Z=[0,[0,h,Y,Y]]}else
 var
 Z=w;return Z;case
 1:var
@@ -7883,79 +8036,79 @@ $!=="number"&&1===$[0])return[0,[1,_,g[2]]];var
 aa=0}else
 var
 aa=z;return aa;default:return 0}}function
-bu(a,b){if(a){var
-c=dF(a[1],b),d=bu(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-aP(c){function
-a(a){return q(a,c,[0,d,b])}var
-e=a(D8),f=a(D9);return[0,a(0),f,e]}function
-rn(a,b){if(a){var
-c=a[1],d=bu(c[1],b),e=bu(c[2],d[2]),f=rn(a[2],e[2]),g=f[2],h=f[1],i=aP(e[1]);return[0,[0,[0,aP(d[1]),i],h],g]}return[0,0,b]}function
-ll(f,e){if(f){var
-a=f[1];switch(a[0]){case
+bw(a,b){if(a){var
+c=dI(a[1],b),d=bw(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+aR(c){function
+b(b){return q(b,c,[0,e,a])}var
+d=b(Et),f=b(Eu);return[0,b(0),f,d]}function
+rC(a,b){if(a){var
+c=a[1],d=bw(c[1],b),e=bw(c[2],d[2]),f=rC(a[2],e[2]),g=f[2],h=f[1],i=aR(e[1]);return[0,[0,[0,aR(d[1]),i],h],g]}return[0,0,b]}function
+ls(f,d){if(f){var
+b=f[1];switch(b[0]){case
 0:var
-g=bu(a[1],e),h=bu(a[2],g[2]),i=bu(a[3],h[2]),j=dF(a[4],i[2]),A=j[2],B=a[5],C=j[1],D=aP(i[1]),E=aP(h[1]),c=[0,[0,[0,aP(g[1]),E,D,C,B]],A];break;case
+g=bw(b[1],d),h=bw(b[2],g[2]),i=bw(b[3],h[2]),j=dI(b[4],i[2]),A=j[2],B=b[5],C=j[1],D=aR(i[1]),E=aR(h[1]),c=[0,[0,[0,aR(g[1]),E,D,C,B]],A];break;case
 1:var
-k=a[3],l=bu(a[1],e),m=l[1],n=bu(a[2],l[2]),o=n[2],p=n[1];if(k)var
-q=bu(k[1],o),F=q[2],G=[0,aP(q[1])],H=aP(p),c=[0,[0,[1,aP(m),H,G]],F];else
+k=b[3],l=bw(b[1],d),m=l[1],n=bw(b[2],l[2]),o=n[2],p=n[1];if(k)var
+q=bw(k[1],o),F=q[2],G=[0,aR(q[1])],H=aR(p),c=[0,[0,[1,aR(m),H,G]],F];else
 var
-I=aP(p),c=[0,[0,[1,aP(m),I,0]],o];break;case
+I=aR(p),c=[0,[0,[1,aR(m),I,0]],o];break;case
 2:var
-r=bu(a[1],e),J=r[2],c=[0,[0,[2,aP(r[1])]],J];break;default:var
-s=a[1],t=bu(s,e),u=bu(a[2],t[2]),v=bu(a[3],u[2]),w=bu(a[4],v[2]),x=dF(a[5],w[2]),y=dF(a[6],x[2]),K=s?aP(t[1]):[0,[0,d,b],[0,d,b],[0,b,b]],L=y[2],M=a[7],N=y[1],O=x[1],P=aP(w[1]),Q=aP(v[1]),c=[0,[1,[0,K,aP(u[1]),Q,P,O,N,M]],L]}var
-z=ll(f[2],c[2]);return[0,[0,c[1],z[1]],z[2]]}return[0,0,e]}function
-dG(a){return m$(j,a)}function
-D_(a){if(typeof
-a==="number")return 1;else
-switch(a[0]){case
-5:return i(j,1,[3,a[1],[0,b,b]]);case
-6:return i(j,1,a[2]);case
+r=bw(b[1],d),J=r[2],c=[0,[0,[2,aR(r[1])]],J];break;default:var
+s=b[1],t=bw(s,d),u=bw(b[2],t[2]),v=bw(b[3],u[2]),w=bw(b[4],v[2]),x=dI(b[5],w[2]),y=dI(b[6],x[2]),K=s?aR(t[1]):[0,[0,e,a],[0,e,a],[0,a,a]],L=y[2],M=b[7],N=y[1],O=x[1],P=aR(w[1]),Q=aR(v[1]),c=[0,[1,[0,K,aR(u[1]),Q,P,O,N,M]],L]}var
+z=ls(f[2],c[2]);return[0,[0,c[1],z[1]],z[2]]}return[0,0,d]}function
+dJ(a){return ng(j,a)}function
+Ev(b){if(typeof
+b==="number")return 1;else
+switch(b[0]){case
+5:return i(j,1,[3,b[1],[0,a,a]]);case
+6:return i(j,1,b[2]);case
 8:var
-d=i(j,1,a[1]);return d?i(j,1,a[2]):d;case
-10:return i(j,0,a[3]);case
+d=i(j,1,b[1]);return d?i(j,1,b[2]):d;case
+10:return i(j,0,b[3]);case
 11:var
-e=a[4];return 2===e[0]?i(j,0,e[2]):0;case
+e=b[4];return 2===e[0]?i(j,0,e[2]):0;case
 12:var
-f=i(j,0,a[2]),g=f?i(j,0,a[3]):f;return g?i(j,1,a[4]):g;case
+f=i(j,0,b[2]),g=f?i(j,0,b[3]):f;return g?i(j,1,b[4]):g;case
 14:var
-h=i(j,0,a[1]);return h?i(j,1,a[2]):h;case
+h=i(j,0,b[1]);return h?i(j,1,b[2]):h;case
 15:var
-k=[0,a[2],a[1]],m=1;return l(function(a){return i(j,m,a)},k);case
+l=[0,b[2],b[1]],m=1;return k(function(a){return i(j,m,a)},l);case
 2:case
-3:return dG(a[2]);case
+3:return dJ(b[2]);case
 4:case
 13:var
-c=i(j,1,a[2]);return c?i(j,1,a[3]):c;default:return i(j,1,a[1])}}function
-lm(a){if(typeof
-a==="number")return 1;else
-switch(a[0]){case
+c=i(j,1,b[2]);return c?i(j,1,b[3]):c;default:return i(j,1,b[1])}}function
+lt(b){if(typeof
+b==="number")return 1;else
+switch(b[0]){case
 4:var
-d=a[3],e=a[2],f=i(j,1,[3,d,e]),g=f?i(j,1,[3,[2,e,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b]],d]):f,h=g?i(j,0,[2,e,[0,c(2,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))))),b]]):g;return h?i(j,0,[3,[0,c(2,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))))),b],d]):h;case
-5:return i(j,1,[3,a[1],[0,b,b]]);case
+d=b[3],e=b[2],f=i(j,1,[3,d,e]),g=f?i(j,1,[3,[2,e,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a]],d]):f,h=g?i(j,0,[2,e,[0,c(2,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a))))))))))),a]]):g;return h?i(j,0,[3,[0,c(2,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a))))))))))),a],d]):h;case
+5:return i(j,1,[3,b[1],[0,a,a]]);case
 8:var
-B=[0,a[2],a[1]],C=1;return l(function(a){return i(j,C,a)},B);case
-10:return i(j,1,a[2]);case
+B=[0,b[2],b[1]],C=1;return k(function(a){return i(j,C,a)},B);case
+10:return i(j,1,b[2]);case
 11:var
-m=a[2],n=i(j,1,m);return n?i(j,0,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],m]):n;case
+m=b[2],n=i(j,1,m);return n?i(j,0,[3,[0,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a))))))))),a],m]):n;case
 13:var
-o=a[4],p=pI(a[3]),q=p?i(j,1,o):p;return q?i(j,0,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],o]):q;case
-14:return i(j,0,a[3]);case
+o=b[4],p=pX(b[3]),q=p?i(j,1,o):p;return q?i(j,0,[3,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a],o]):q;case
+14:return i(j,0,b[3]);case
 15:var
-s=i(j,0,a[2]),t=s?i(j,0,a[3]):s;return t?i(j,1,a[4]):t;case
+r=i(j,0,b[2]),t=r?i(j,0,b[3]):r;return t?i(j,1,b[4]):t;case
 16:var
-u=a[3],v=i(j,0,a[1]),w=v?i(j,1,a[2]):v,x=w?i(j,0,u):w;return x?i(j,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],u]):x;case
+u=b[3],v=i(j,0,b[1]),w=v?i(j,1,b[2]):v,x=w?i(j,0,u):w;return x?i(j,1,[3,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a],u]):x;case
 17:var
-y=a[2],z=l(dG,y),A=z?ag(function(a){return i(j,1,[4,a,a])},y):z;return A?i(j,1,a[3]):A;case
+y=b[2],z=k(dJ,y),A=z?ag(function(a){return i(j,1,[4,a,a])},y):z;return A?i(j,1,b[3]):A;case
 2:case
-3:return dG(a[2]);case
+3:return dJ(b[2]);case
 6:case
 7:case
 9:var
-k=i(j,1,a[2]);return k?i(j,1,a[3]):k;default:return i(j,1,a[1])}}function
-iu(d){var
+l=i(j,1,b[2]);return l?i(j,1,b[3]):l;default:return i(j,1,b[1])}}function
+iA(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=J(ag(function(d){return function(a){var
-h=k4(a[1]),e=aJ(k4(d[1]),h);if(e)var
-i=k5(a[4]),b=aJ(k5(d[4]),i);else
+b=a[2],e=a[1],c=L(ag(function(d){return function(a){var
+h=k$(a[1]),e=aM(k$(d[1]),h);if(e)var
+i=la(a[4]),b=aM(la(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
@@ -7964,125 +8117,125 @@ g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-gr(a){if(0===a[0])return dG(k(a[1]));var
-b=a[2],c=a[1];if(!dU(k(c))&&!dU(k(b))){var
-e=k(c);return i(j,1,[3,k(b),e])}var
-d=k(b);return bH(j,k(c),d)}function
-eo(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-ro(a){switch(a[0]){case
+gx(a){if(0===a[0])return dJ(l(a[1]));var
+b=a[2],c=a[1];if(!dV(l(c))&&!dV(l(b))){var
+e=l(c);return i(j,1,[3,l(b),e])}var
+d=l(b);return bI(j,l(c),d)}function
+es(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+rD(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=g(eo(a[3]),c),e=g(eo(a[2]),d);return g(eo(a[1]),e);case
+c=[0,a[4],0],d=g(es(a[3]),c),e=g(es(a[2]),d);return g(es(a[1]),e);case
 1:var
-b=a[3],f=b?eo(b[1]):b,h=g(eo(a[2]),f);return g(eo(a[1]),h);default:return eo(a[1])}}function
-rp(s,a,m){if(ag(function(a){return 9===a[1]?1:0},m)){var
-b=ae(f(a),Eb),c=b?l(function(a){if(0===a[0]){var
-d=a[5],e=i(j,1,k(a[2])),f=e?i(j,0,k(a[3])):e,m=f?i(j,0,k(a[4])):f,c=0;if(m)if(d)var
-p=ce(d[1]),b=l(function(a){return dG(k(a))},p);else{var
+b=a[3],f=b?es(b[1]):b,h=g(es(a[2]),f);return g(es(a[1]),h);default:return es(a[1])}}function
+rE(s,a,m){if(ag(function(a){return 9===a[1]?1:0},m)){var
+b=ae(f(a),Ey),c=b?k(function(a){if(0===a[0]){var
+d=a[5],e=i(j,1,l(a[2])),f=e?i(j,0,l(a[3])):e,m=f?i(j,0,l(a[4])):f,c=0;if(m)if(d)var
+p=ch(d[1]),b=k(function(a){return dJ(l(a))},p);else{var
 n=1;c=1}else{var
 n=m;c=1}if(c)var
 b=n}else{var
-o=i(j,1,k(a[4]));if(o)var
-q=ce(a[3]),r=g(ce(a[2]),q),b=l(function(a){return dG(k(a))},r);else
+o=i(j,1,l(a[4]));if(o)var
+q=ch(a[3]),r=g(ch(a[2]),q),b=k(function(a){return dJ(l(a))},r);else
 var
 b=o}return b?h(s,a):b},a):b;if(c)var
-d=ij(0,a),n=d?1:d,e=n;else
+d=iq(0,a),n=d?1:d,e=n;else
 var
 e=c;return e}return a?0:1}function
-rq(a){return a?Ec:Ed}function
-iv(a){switch(a){case
-0:return Ee;case
-1:return Ef;default:return 0}}function
-dH(a){var
-f=a[1],d=i(j,1,[2,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],f]),e=d?bH(j,a[1],a[2]):d;if(e){var
-g=a[2];return i(j,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],g])}return e}function
-ff(a){var
-e=bH(j,[0,d,b],a);return e?i(j,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],a]):e}function
-rr(c,b,a){if(0===a[0]){var
+rF(a){return a?Ez:EA}function
+iB(a){switch(a){case
+0:return EB;case
+1:return EC;default:return 0}}function
+dK(b){var
+f=b[1],d=i(j,1,[2,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a],f]),e=d?bI(j,b[1],b[2]):d;if(e){var
+g=b[2];return i(j,1,[3,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a],g])}return e}function
+fk(b){var
+d=bI(j,[0,e,a],b);return d?i(j,1,[3,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a],b]):d}function
+rG(c,b,a){if(0===a[0]){var
 d=a[2],e=a[1],g=m(f(e),c),h=g?m(f(d),c):g;if(h){var
-o=N(e,d);return l(function(a){var
-b=k(a[2]);return bH(j,k(a[1]),b)},o)}return h}var
-n=b?i(j,1,k(a[3])):b;if(n){var
-p=k(a[5]);return bH(j,k(a[4]),p)}return n}function
-rs(a,e,F,E,t,s,g){function
+o=M(e,d);return k(function(a){var
+b=l(a[2]);return bI(j,l(a[1]),b)},o)}return h}var
+n=b?i(j,1,l(a[3])):b;if(n){var
+p=l(a[5]);return bI(j,l(a[4]),p)}return n}function
+rH(a,e,F,E,t,s,g){function
 u(b){var
-d=rq(a),c=m(f(b),d);return c?l(gr,b):c}var
-v=l(function(a){var
+d=rF(a),c=m(f(b),d);return c?k(gx,b):c}var
+v=k(function(a){var
 b=u(a[1]);return b?u(a[2]):b},e);if(v)var
-G=f(e),o=ae(bK(a),G);else
+G=f(e),o=ae(bM(a),G);else
 var
 o=v;var
-w=o?ae(f(e),Eg):o,x=w?i(j,1,k(F)):w;if(x)var
-H=1===a?1:0,p=rr(iv(a),H,E);else
+w=o?ae(f(e),ED):o,x=w?i(j,1,l(F)):w;if(x)var
+H=1===a?1:0,p=rG(iB(a),H,E);else
 var
 p=x;if(p)if(a){var
-d=ek(t);switch(d[0]){case
+d=eo(t);switch(d[0]){case
 0:var
 h=0;break;case
 1:var
-A=dH(d[1]),B=A?dH(d[2]):A,h=B?dH(d[3]):B;break;case
+A=dK(d[1]),B=A?dK(d[2]):A,h=B?dK(d[3]):B;break;case
 2:var
-h=ff(d[1]);break;default:var
-C=ff(d[1]),h=C?ff(d[2]):C}var
+h=fk(d[1]);break;default:var
+C=fk(d[1]),h=C?fk(d[2]):C}var
 n=h}else
 var
-D=ek(t),J=0===D[0]?dH(D[1]):0,n=J;else
+D=eo(t),J=0===D[0]?dK(D[1]):0,n=J;else
 var
 n=p;if(n)var
-I=f(e),q=rp(function(a){if(0===a[0]){var
-b=a[1],c=ae(Ea,b),d=c?ae(b,I):c;if(d){if(a[5])return 0;var
+I=f(e),q=rE(function(a){if(0===a[0]){var
+b=a[1],c=ae(Ex,b),d=c?ae(b,I):c;if(d){if(a[5])return 0;var
 e=1}else
 var
 e=d;return e}return 1},s,g);else
 var
 q=n;if(q)var
-b=f(e),c=bK(a),y=rq(a),r=l(function(a){var
+b=f(e),c=bM(a),y=rF(a),r=k(function(a){var
 e=a[2];if(e)var
-g=e[1],h=ae(Do,g),w=h?ae(g,b):h,d=w;else
+g=e[1],h=ae(DL,g),w=h?ae(g,b):h,d=w;else
 var
 d=1;switch(a[1]){case
 9:var
 i=a[4];if(typeof
-i!=="number"&&0===i[0])return a[2]?aM(c,b,a):a[3]?aM(c,b,a):1;return aM(c,b,a);case
+i!=="number"&&0===i[0])return a[2]?aN(c,b,a):a[3]?aN(c,b,a):1;return aN(c,b,a);case
 10:var
 j=a[4];if(typeof
 j!=="number"&&1===j[0]){var
-k=a[3];return k?2===k[1][0]?d:aM(c,b,a):aM(c,b,a)}return aM(c,b,a);case
+k=a[3];return k?2===k[1][0]?d:aN(c,b,a):aN(c,b,a)}return aN(c,b,a);case
 12:var
 l=a[4];if(typeof
-l!=="number"&&1===l[0]){if(a[2])return aM(c,b,a);var
-n=a[3];return n?3===n[1][0]?m(b,c):aM(c,b,a):aM(c,b,a)}return aM(c,b,a);case
+l!=="number"&&1===l[0]){if(a[2])return aN(c,b,a);var
+n=a[3];return n?3===n[1][0]?m(b,c):aN(c,b,a):aN(c,b,a)}return aN(c,b,a);case
 14:var
 o=a[4];if(typeof
 o!=="number"&&1===o[0]){var
 p=a[3];if(p){var
 q=p[1];if(1===q[0]){var
-r=m(f(q[1]),y),x=r?d:r;return x}return aM(c,b,a)}return aM(c,b,a)}return aM(c,b,a);case
+r=m(f(q[1]),y),x=r?d:r;return x}return aN(c,b,a)}return aN(c,b,a)}return aN(c,b,a);case
 15:var
 s=a[4];if(typeof
 s!=="number"&&1===s[0]){var
 t=a[3];if(t){var
 u=t[1];if(1===u[0]){var
-v=m(f(u[1]),y),z=v?d:v;return z}return aM(c,b,a)}return aM(c,b,a)}return aM(c,b,a);default:return aM(c,b,a)}},g);else
+v=m(f(u[1]),y),z=v?d:v;return z}return aN(c,b,a)}return aN(c,b,a)}return aN(c,b,a);default:return aN(c,b,a)}},g);else
 var
 r=q;var
-z=r?iu(g):r;return z?l(lm,fe(0,f(e),s,g)):z}function
-ln(a){switch(a[0]){case
+z=r?iA(g):r;return z?k(lt,fj(0,f(e),s,g)):z}function
+lu(a){switch(a[0]){case
 0:var
 c=g(a[3],[0,a[4],0]),d=g(a[2],c);return g(a[1],d);case
 1:var
 b=a[3],e=b?b[1]:b,f=g(a[2],e);return g(a[1],f);case
 2:return a[1];default:var
 h=g(a[4],[0,a[5],[0,a[6],0]]),i=g(a[3],h),j=g(a[2],i);return g(a[1],j)}}function
-iw(a,b,e,T,p,n){var
+iC(a,b,e,T,p,n){var
 q=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 c(a){var
-b=q?Eh:Ei;return m(f(a),b)}var
-h=el(b),w=l(function(b){switch(b[0]){case
+b=q?EE:EF;return m(f(a),b)}var
+h=ep(b),w=k(function(b){switch(b[0]){case
 0:var
-f=J(h),g=f?c(b[1]):f,i=g?c(b[2]):g;return i?c(b[3]):i;case
+f=L(h),g=f?c(b[1]):f,i=g?c(b[2]):g;return i?c(b[3]):i;case
 1:var
-d=b[3],j=J(h),k=j?c(b[1]):j,l=k?c(b[2]):k;if(l){var
+d=b[3],j=L(h),k=j?c(b[1]):j,l=k?c(b[2]):k;if(l){var
 m=typeof
 a==="number"?1:0;if(m){if(a)return d?0:1;if(d)return c(d[1]);var
 e=1}else
@@ -8091,190 +8244,190 @@ e=m}else
 var
 e=l;return e;case
 2:var
-n=J(h),o=n?c(b[1]):n;if(o){if(typeof
+n=L(h),o=n?c(b[1]):n;if(o){if(typeof
 a==="number"&&!a)return 1;var
 p=0}else
 var
 p=o;return p;default:var
 r=b[1],s=q?r?0:1:c(r),t=s?c(b[2]):s,u=t?c(b[3]):t;return u?c(b[4]):u}},b);if(w)var
-U=f(b),r=ae(ap(a),U);else
+U=f(b),r=ae(as(a),U);else
 var
 r=w;var
-z=r?ae(f(b),Ej):r,A=z?l(gr,y(ln,b)):z;if(A){var
+z=r?ae(f(b),EG):r,A=z?k(gx,y(lu,b)):z;if(A){var
 S=0;if(typeof
 a==="number"&&!a){var
 B=1;S=1}if(!S)var
 B=0;var
-V=q?Ek:El,s=rr(V,B,T)}else
+V=q?EH:EI,s=rG(V,B,T)}else
 var
 s=A;if(s)if(typeof
 a==="number")if(e)var
 d=0;else
 var
-W=x(ek,p)?0:1,d=W;else
+W=x(eo,p)?0:1,d=W;else
 switch(a[1]){case
 0:if(e){var
-t=x(ek,p);if(t){var
+t=x(eo,p);if(t){var
 G=t[1];if(0===G[0])var
-H=i(j,1,k(e[1])),I=H?dH(G[1]):H;else
+H=i(j,1,l(e[1])),I=H?dK(G[1]):H;else
 var
 I=0;var
-K=I}else
+J=I}else
 var
-K=t;var
-d=K}else
+J=t;var
+d=J}else
 var
 d=e;break;case
 1:if(e){var
-u=e[1],v=x(ek,p);if(v){var
+u=e[1],v=x(eo,p);if(v){var
 g=v[1];switch(g[0]){case
 0:var
 o=0;break;case
 1:var
-M=i(j,1,k(u)),N=M?dH(g[1]):M,O=N?dH(g[2]):N,o=O?dH(g[3]):O;break;case
+M=i(j,1,l(u)),N=M?dK(g[1]):M,O=N?dK(g[2]):N,o=O?dK(g[3]):O;break;case
 2:var
-P=i(j,1,k(u)),o=P?ff(g[1]):P;break;default:var
-Q=i(j,1,k(u)),R=Q?ff(g[1]):Q,o=R?ff(g[2]):R}var
-L=o}else
+P=i(j,1,l(u)),o=P?fk(g[1]):P;break;default:var
+Q=i(j,1,l(u)),R=Q?fk(g[1]):Q,o=R?fk(g[2]):R}var
+K=o}else
 var
-L=v;var
-d=L}else
+K=v;var
+d=K}else
 var
 d=e;break;default:var
 d=0}else
 var
 d=s;var
-C=d?l(function(c){var
-d=q7(h,a,f(b),c);if(d)var
+C=d?k(function(c){var
+d=rk(h,a,f(b),c);if(d)var
 e=d;else{var
-g=c4(c);if(g)return aM(0,0,c);var
-e=g}return e},n):d,D=C?l(function(a){var
+g=c_(c);if(g)return aN(0,0,c);var
+e=g}return e},n):d,D=C?k(function(a){var
 e=a[1];if(4===e){var
 f=a[2];if(f)var
-c=F(b,aU(f[1])),j=c?[0,c[1],0]:c,g=j;else
+c=F(b,aY(f[1])),j=c?[0,c[1],0]:c,g=j;else
 var
-g=b;return l(function(a){switch(a[0]){case
+g=b;return k(function(a){switch(a[0]){case
 0:case
 3:return 1;default:return 0}},g)}if(13===e){var
 h=a[2];if(h)var
-d=F(b,aU(h[1])),k=d?[0,d[1],0]:d,i=k;else
+d=F(b,aY(h[1])),l=d?[0,d[1],0]:d,i=l;else
 var
-i=b;return l(function(a){switch(a[0]){case
+i=b;return k(function(a){switch(a[0]){case
 0:case
-3:return 1;default:return 0}},i)}return 1},n):C,E=D?iu(n):D;return E?l(lm,fe(h,f(b),0,n)):E}function
-Em(a){switch(a[0]){case
-0:return hJ(a[1][1]);case
+3:return 1;default:return 0}},i)}return 1},n):C,E=D?iA(n):D;return E?k(lt,fj(h,f(b),0,n)):E}function
+EJ(a){switch(a[0]){case
+0:return hP(a[1][1]);case
 1:var
-b=a[3];return b?hJ(b[1]):1;default:return hJ(a[1])}}function
-ix(a,k,b,d){var
-e=rp(function(g){if(0===g[0]){var
-c=g[1],d=ae(D$,c);if(d){var
-b=F(a,aU(c));if(b){if(2===b[1][0])return 0;var
+b=a[3];return b?hP(b[1]):1;default:return hP(a[1])}}function
+iD(a,l,b,d){var
+e=rE(function(g){if(0===g[0]){var
+c=g[1],d=ae(Ew,c);if(d){var
+b=F(a,aY(c));if(b){if(2===b[1][0])return 0;var
 e=1}else
 var
 e=b;var
 f=e}else
 var
-f=d;return f}return 1},k,b),g=e?l(Em,d[1]):e,h=g?ae(En,f(a)):g;if(h)var
-m=f(a),c=l(function(a){return De(m,a)},b);else
+f=d;return f}return 1},l,b),g=e?k(EJ,d[1]):e,h=g?ae(EK,f(a)):g;if(h)var
+m=f(a),c=k(function(a){return DB(m,a)},b);else
 var
 c=h;var
-i=c?iu(b):c,j=i?l(gr,y(ro,a)):i;return j?l(D_,d[3]):j}function
-rt(n,k,a,j,i,b){var
-c=f(n),o=f(i),d=m(f(j),o),e=d?l(function(b){if(12===b[1]){var
+i=c?iA(b):c,j=i?k(gx,y(rD,a)):i;return j?k(Ev,d[3]):j}function
+rI(n,l,a,j,i,b){var
+c=f(n),o=f(i),d=m(f(j),o),e=d?k(function(b){if(12===b[1]){var
 o=0,e=b[4];if(typeof
 e!=="number"&&1===e[0]){if(b[2])var
-k=aM(c,f(a),b);else
+l=aN(c,f(a),b);else
 var
-n=b[3],q=n?0===n[1][0]?m(c,f(a)):aM(c,f(a),b):aM(c,f(a),b),k=q;var
-g=k;o=1}if(!o)var
-g=aM(c,f(a),b);var
+n=b[3],q=n?0===n[1][0]?m(c,f(a)):aN(c,f(a),b):aN(c,f(a),b),l=q;var
+g=l;o=1}if(!o)var
+g=aN(c,f(a),b);var
 d=g}else
 var
-d=aM(c,f(a),b);if(d){var
+d=aN(c,f(a),b);if(d){var
 h=b[1]-1|0;if(!(11<h>>>0))switch(h){case
 0:var
-j=b[2],p=j?[0,aU(j[1]),0]:aA(0,f(a));return l(function(c){var
+j=b[2],p=j?[0,aY(j[1]),0]:ax(0,f(a));return k(function(c){var
 b=F(a,c);return b?0===b[1][0]?0:1:b},p);case
-10:return l(function(a){return 0===a[0]?0:1},a);case
-11:return l(function(a){return 0===a[0]?0:1},a)}var
+10:return k(function(a){return 0===a[0]?0:1},a);case
+11:return k(function(a){return 0===a[0]?0:1},a)}var
 i=1}else
 var
-i=d;return i},b):d,g=e?iu(b):e,h=g?l(function(a){return gr(a[2])},k):g;return h?l(lm,fe(0,f(a),0,b)):h}function
-ru(a){if(a){var
-b=a[1];if(c4(b))return 0;var
-c=[0,b,ru(a[2])]}else
+i=d;return i},b):d,g=e?iA(b):e,h=g?k(function(a){return gx(a[2])},l):g;return h?k(lt,fj(0,f(a),0,b)):h}function
+rJ(a){if(a){var
+b=a[1];if(c_(b))return 0;var
+c=[0,b,rJ(a[2])]}else
 var
 c=a;return c}function
-ep(h,g,d,c,b){var
-i=ru(b),k=y(function(a){return il(h,d,c,a)},i),l=mF(e(function(a){return fZ(j,g,a)},k)),a=y(q5,b),m=a?[0,a[1],a[2]]:Eo;return O(f(m),l)}function
-lo(a){return 2<=a?Ep:Eq}function
-lp(n,l,k,j,f,i){var
-g=ep(n,l,k,j,f),c=rl(i);if(c){var
+et(h,g,e,c,b){var
+i=rJ(b),k=y(function(a){return is(h,e,c,a)},i),l=mM(d(function(a){return f5(j,g,a)},k)),a=y(ri,b),m=a?[0,a[1],a[2]]:EL;return P(f(m),l)}function
+lv(a){return 2<=a?EM:EN}function
+lw(n,l,k,j,f,i){var
+g=et(n,l,k,j,f),c=rA(i);if(c){var
 a=c[1],e=0;if(typeof
 a==="number")var
 h=[0,a];else
 if(0===a[0]){var
 o=a[2],p=a[1],b=p,d=function(a){return[0,a,o]};e=1}else{var
-q=a[2],r=a[1],b=r,d=function(a){return[1,a,q]};e=1}if(e){if(!J(ag(c4,f))&&!aF(b,g))return m(b,g)?0:[0,d(aU(b))];return[0,d(b)]}}else
+q=a[2],r=a[1],b=r,d=function(a){return[1,a,q]};e=1}if(e){if(!L(ag(c_,f))&&!aE(b,g))return m(b,g)?0:[0,d(aY(b))];return[0,d(b)]}}else
 var
 h=c;return h}function
-gs(b,a){var
-c=f(aW(function(a){return 0===a[0]?0:1},b));return m(f(a),c)}function
-iy(a){var
-b=N(aA(0,f(a)),a);return e(as,aW(function(a){return jS(a[2])},b))}function
-rv(a){var
-b=a[1],c=e(is,a[1]);return hB(it(a[1]),c,b)}function
-lq(a){return iy(rv(a))}function
-rw(b,a){if(a){var
-c=a[1],d=a[2],f=rw(O(b,c[1]),d),h=c[2];return g(e(function(a){return aA(O(b,a),Er)},h),f)}return a}function
-rx(e,a){function
+gy(b,a){var
+c=f(aP(function(a){return 0===a[0]?0:1},b));return m(f(a),c)}function
+iE(a){var
+b=M(ax(0,f(a)),a);return d(ao,aP(function(a){return jZ(a[2])},b))}function
+rK(a){var
+b=a[1],c=d(iy,a[1]);return hH(iz(a[1]),c,b)}function
+lx(a){return iE(rK(a))}function
+rL(b,a){if(a){var
+c=a[1],e=a[2],f=rL(P(b,c[1]),e),h=c[2];return g(d(function(a){return ax(P(b,a),EO)},h),f)}return a}function
+rM(d,a){function
 b(f){var
-a=F(e,f);if(a){var
-b=of(a[1]);if(b)return H(b[1],d);var
+a=F(d,f);if(a){var
+b=ou(a[1]);if(b)return H(b[1],e);var
 c=1}else
 var
 c=a;return c}var
-c=rw(0,a);return aW(function(a){return l(b,a)},c)}function
-ry(a){switch(a[0]){case
-0:return Es;case
-1:return a[3]?Et:Eu;default:return Ev}}function
-Ew(a){return 0===a[0]?ry(a[1]):Ex}function
-iz(a){if(a){var
-b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
-lr(aA,Z,az,Y,X,b,ay,W){var
-a=ik(Z,az,Y,X),aC=f(W),aD=e(ry,a[1]),aE=rx(rv(a),aD),aF=aA?0:lq(a),B=em(Ey,lq(a),aF,aE,aC,W);if(B){var
+c=rL(0,a);return aP(function(a){return k(b,a)},c)}function
+rN(a){switch(a[0]){case
+0:return EP;case
+1:return a[3]?EQ:ER;default:return ES}}function
+ET(a){return 0===a[0]?rN(a[1]):EU}function
+iF(a){if(a){var
+b=a[1];return[0,b[2],b[1]]}return[0,e,0]}function
+ly(aA,Z,az,Y,X,b,ay,W){var
+a=ir(Z,az,Y,X),aB=f(W),aD=d(rN,a[1]),aE=rM(rK(a),aD),aF=aA?0:lx(a),B=eq(EV,lx(a),aF,aE,aB,W);if(B){var
 _=B[1];if(_[2])return 0;var
-$=ix(Z,Y,X,a);if($){var
-aG=_[1],C=e(is,a[1]),c=it(a[1]),aH=iz(ay),V=oF(j,a);if(V){var
-m=hB(c,C,a[1]),i=jP(c,C,a[1],0),ac=f(a[3]),ae=O(f(m),ac),K=[0,f(m),ae],af=a[3],E=ag(function(a){if(typeof
+$=iD(Z,Y,X,a);if($){var
+aG=_[1],C=d(iy,a[1]),c=iz(a[1]),aI=iF(ay),V=oU(j,a);if(V){var
+m=hH(c,C,a[1]),i=jW(c,C,a[1],0),ac=f(a[3]),ae=P(f(m),ac),K=[0,f(m),ae],af=a[3],E=ag(function(a){if(typeof
 a!=="number"&&14===a[0])return 1;return 0},af),ah=E?y(function(a){var
-b=e(aK,fV(m,a[4]));return[0,a[4],b]},i):E,ai=g(jR(i,c,K,a[3]),ah),aj=g(bI(no(i)),ai),L=g(bI(fJ(i)),aj),M=dd(L),N=dc(M),r=cS(N),P=l(function(a){var
-b=n(d);return a2(q(h(r,a),N,b),a)},L);if(P){var
-Q=ag(vT,a[3]);if(Q){var
+b=d(aH,f1(m,a[4]));return[0,a[4],b]},i):E,ai=g(jY(i,c,K,a[3]),ah),aj=g(bK(nv(i)),ai),L=g(bK(fO(i)),aj),M=dm(L),N=dl(M),r=cT(N),O=k(function(a){var
+b=n(e);return a3(q(h(r,a),N,b),a)},L);if(O){var
+Q=ag(wd,a[3]);if(Q){var
 t=C,o=a[1];for(;;){if(o){var
-p=o[1],u=bG(d,t);switch(p[0]){case
+p=o[1],u=bz(e,t);switch(p[0]){case
 0:var
-F=p[1],G=hE(b,F[1],u),D=0;if(G){var
-s=au(b,[0,F[4],c]);if(s)var
-k=I(d,s[1][1]);else{var
+F=p[1],G=hK(b,F[1],u),D=0;if(G){var
+s=av(b,[0,F[4],c]);if(s)var
+l=I(e,s[1][1]);else{var
 H=s;D=1}}else{var
 H=G;D=1}if(D)var
-k=H;break;case
+l=H;break;case
 1:var
-J=p[3],k=J?hE(b,J[1],u):1;break;default:var
-k=hE(b,p[1],u)}if(k){var
-ab=o[2],t=bx(t),o=ab;continue}var
-R=k}else
+J=p[3],l=J?hK(b,J[1],u):1;break;default:var
+l=hK(b,p[1],u)}if(l){var
+ab=o[2],t=bp(t),o=ab;continue}var
+R=l}else
 var
 R=1;var
 v=R;break}}else
 var
 v=Q;if(v){var
-ak=a[3],al=y(function(a){return d1(c,a)},ak),am=a[3],an=g(m,g(e(function(a){return b9(c,a)},am),al)),w=ad(e(function(a){return au(b,a)},an));if(w){var
-ao=bi(eW(a[2]),c),x=ad(e(function(a){return au(b,a)},ao));if(x){var
-z=ad(os(b,aH,r,m,i,c,K,a[3]));if(z){var
-S=z[1],ap=jO(S),aq=x[1],ar=a[2],as=function(a){return ot(b,ar,c,a)},at=w[1],av=no(i),aw=h(aB(r),av),ax=fJ(i);return fi(jN(b,M,h(aB(r),ax),aw,0,at,S,as),aq,ap,aG)}var
+ak=a[3],al=y(function(a){return d4(c,a)},ak),am=a[3],an=g(m,g(d(function(a){return ca(c,a)},am),al)),w=ad(d(function(a){return av(b,a)},an));if(w){var
+ao=bi(e2(a[2]),c),x=ad(d(function(a){return av(b,a)},ao));if(x){var
+z=ad(oH(b,aI,r,m,i,c,K,a[3]));if(z){var
+S=z[1],ap=jV(S),aq=x[1],ar=a[2],as=function(a){return oI(b,ar,c,a)},at=w[1],au=nv(i),aw=h(aC(r),au),ax=fO(i);return fm(jU(b,M,h(aC(r),ax),aw,0,at,S,as),aq,ap,aG)}var
 T=z}else
 var
 T=x;var
@@ -8285,143 +8438,143 @@ A=U}else
 var
 A=v}else
 var
-A=P;return A}return V}var
+A=O;return A}return V}var
 aa=$}else
 var
 aa=B;return aa}function
-Ez(a){if(0===a[0])return rh(a[1]);var
-b=a[1],c=eY(b[6]);return g(eY(b[5]),c)}function
-EA(a){if(0===a[0])return ri(a[1]);var
+EW(a){if(0===a[0])return rw(a[1]);var
+b=a[1],c=e4(b[6]);return g(e4(b[5]),c)}function
+EX(a){if(0===a[0])return rx(a[1]);var
 b=a[1],c=bk(b[4]);return g(bk(b[3]),c)}function
-rz(c){var
-a=y(Ez,c),d=a?[0,a[1],a[2]]:y(EA,c);return G(b,bU(d))}function
-EB(a){if(0===a[0])return[0,is(a[1]),d];var
-b=a[1],c=bU(bk(b[2]));return[0,bU(bk(b[1])),c]}function
-ls(h,b,s,r,q,g,C,B,p){var
-a=la(h,b,s,r,q,g),t=rz(a[2]),u=e(EB,a[2]),i=kx(t,u,a[2]),D=f(p),E=rx(i,e(Ew,a[2])),F=iy(i),G=iy(i),k=em(ap(h),G,F,E,D,p);if(k){var
-v=k[1];if(v[2])return 0;var
-w=iw(h,b,s,r,q,g);if(w){var
-H=v[1],I=f(b),J=ep(el(b),EC,I,0,g),K=iz(B),y=e(xT,a[2]),m=e5(j,a[2],y);if(m)var
-z=jX(a[4]),c=cY(j,a[4],z);else
+rO(c){var
+b=y(EW,c),d=b?[0,b[1],b[2]]:y(EX,c);return G(a,bX(d))}function
+EY(a){if(0===a[0])return[0,iy(a[1]),e];var
+b=a[1],c=bX(bk(b[2]));return[0,bX(bk(b[1])),c]}function
+lz(h,b,s,r,q,g,C,B,p){var
+a=lh(h,b,s,r,q,g),t=rO(a[2]),u=d(EY,a[2]),i=kE(t,u,a[2]),D=f(p),E=rM(i,d(ET,a[2])),F=iE(i),G=iE(i),l=eq(as(h),G,F,E,D,p);if(l){var
+v=l[1];if(v[2])return 0;var
+w=iC(h,b,s,r,q,g);if(w){var
+H=v[1],I=f(b),J=et(ep(b),EZ,I,0,g),K=iF(B),y=d(yd,a[2]),m=e$(j,a[2],y);if(m)var
+z=j4(a[4]),c=c2(j,a[4],z);else
 var
 c=m;if(c){var
 n=a[5];if(n)var
-A=hS(n[1]),o=l(function(a){return ga(j,a)},A);else
+A=hY(n[1]),o=k(function(a){return gg(j,a)},A);else
 var
 o=1;var
-d=o}else
+e=o}else
 var
-d=c;return d?xQ(C,K,J,a,t,u,H):d}var
+e=c;return e?ya(C,K,J,a,t,u,H):e}var
 x=w}else
 var
-x=k;return x}function
-lt(x,C,a0,aZ,aY,ac,bB,aX,H){var
+x=l;return x}function
+lA(z,C,a0,aZ,aY,ac,bB,aX,H){var
 I=typeof
-x==="number"?x?ED:EE:iv(x[1]),O=e(k,bB),a=la(x,C,a0,aZ,aY,ac),a1=ll(C,e(k,aX));if(a1[2])return 0;var
-u=a1[1],a2=gs(y(ln,C),aX),a3=a2?iw(x,C,a0,aZ,aY,ac):a2;if(a3)var
-bC=ap(x),ad=m(f(O),bC);else
+z==="number"?z?E0:E1:iB(z[1]),N=d(l,bB),b=lh(z,C,a0,aZ,aY,ac),a1=ls(C,d(l,aX));if(a1[2])return 0;var
+u=a1[1],a2=gy(y(lu,C),aX),a3=a2?iC(z,C,a0,aZ,aY,ac):a2;if(a3)var
+bC=as(z),ad=m(f(N),bC);else
 var
 ad=a3;if(ad){if(typeof
 H!=="number"&&2===H[0]){var
-ak=e(k,H[1]),bF=az(I,ak),a8=aP(aq(I,ak)),bG=az(I,O),a9=aP(aq(I,O)),ax=e5(j,a[2],u),ay=ax?cY(j,a[4],a9):ax,aA=ay?cY(j,a[4],a8):ay,a_=aA?qm(j,a[1],a[3],a[5],u,a9,bG,a8,bF):aA;if(a_){var
-bH=ap(x);return m(f(ak),bH)}return a_}var
-bD=f(C),bE=f_(x),ae=lp(el(C),bE,bD,0,ac,H);if(ae){var
-P=ae[1],g=aP(aq(I,O)),n=az(I,O),a$=0;if(typeof
+ak=d(l,H[1]),bF=aw(I,ak),a8=aR(ap(I,ak)),bG=aw(I,N),a9=aR(ap(I,N)),ay=e$(j,b[2],u),az=ay?c2(j,b[4],a9):ay,aA=az?c2(j,b[4],a8):az,a_=aA?qB(j,b[1],b[3],b[5],u,a9,bG,a8,bF):aA;if(a_){var
+bH=as(z);return m(f(ak),bH)}return a_}var
+bD=f(C),bE=ge(z),ae=lw(ep(C),bE,bD,0,ac,H);if(ae){var
+P=ae[1],g=aR(ap(I,N)),n=aw(I,N),a$=0;if(typeof
 H==="number"&&H){var
-af=J(el(C));a$=1}if(!a$)var
+af=L(ep(C));a$=1}if(!a$)var
 af=1;if(af){var
-au=e5(j,a[2],u),av=au?hV(j,a,g,n):au;if(av)var
-w=a[5],aw=a[3],K=a[1],bk=a[6],ba=e(function(a){if(0===a[0])var
-e=bl(w,n,g,a),c=bJ(a[1],e);else
+au=e$(j,b[2],u),av=au?h1(j,b,g,n):au;if(av)var
+x=b[5],ax=b[3],J=b[1],bk=b[6],ba=d(function(b){if(0===b[0])var
+e=bl(x,n,g,b),c=bL(b[1],e);else
 var
-d=a[1],f=j4(d,bl(w,n,g,a)),h=d[4],i=bl(w,n,g,a),j=M(function(b,a){return[2,b,a]},i,h),c=M(function(b,a){return[3,b,a]},j,f);return[0,kg(K,c,S([5,[0,b,b],aw],cy(eb(w,n,ea(a)),c)))]},u),bd=y(function(a){return ki(w,n,g,a)},u),be=function(a){var
-b=eb(w,n,a);return M(function(b,a){return[2,b,a]},g,b)},bf=0,bg=e(function(f){var
-c=bl(w,n,g,f);if(0===f[0]){var
-a=f[1];switch(a[0]){case
+d=b[1],f=j$(d,bl(x,n,g,b)),h=d[4],i=bl(x,n,g,b),j=O(function(b,a){return[2,b,a]},i,h),c=O(function(b,a){return[3,b,a]},j,f);return[0,kn(J,c,T([5,[0,a,a],ax],cz(ee(x,n,ed(b)),c)))]},u),bd=y(function(a){return kp(x,n,g,a)},u),be=function(a){var
+b=ee(x,n,a);return O(function(b,a){return[2,b,a]},g,b)},bf=0,bg=d(function(f){var
+c=bl(x,n,g,f);if(0===f[0]){var
+b=f[1];switch(b[0]){case
 0:var
-i=a[4],j=a[3],k=a[2],h=a[1],m=b_(h,k,j,i,c),l=cx(a[5],m),o=S(l,aE(h)),p=d3(h,k,j,c);return[0,[0,kh(K,M(function(b,a){return[2,b,a]},p,o)),l,i]];case
+i=b[4],j=b[3],k=b[2],h=b[1],m=cb(h,k,j,i,c),l=cy(b[5],m),o=T(l,aG(h)),p=d6(h,k,j,c);return[0,[0,ko(J,O(function(b,a){return[2,b,a]},p,o)),l,i]];case
 1:var
-q=bJ(a,c),r=[6,v(bJ(a,c),q)];return[0,[0,kh(K,bJ(a,c)),[0,d,b],r]];default:return 0}}var
-e=f[1],s=e[6],t=d5(e,c),u=j4(e,c),x=e[4],y=M(function(b,a){return[2,b,a]},c,x);return[0,[0,kh(K,M(function(b,a){return[3,b,a]},y,u)),t,s]]},u),bh=e(function(a){return e4(w,n,g,a)},u),bi=[0,e(function(a){return pl(K,aw,w,n,g,a)},u),bh,bg,bf,be,bd,ba],bm=ap(a[1]),ah=jZ(j,f_(a[1]),bm,bi,bk,P);else
+q=bL(b,c),r=[6,v(bL(b,c),q)];return[0,[0,ko(J,bL(b,c)),[0,e,a],r]];default:return 0}}var
+d=f[1],s=d[6],t=d8(d,c),u=j$(d,c),w=d[4],y=O(function(b,a){return[2,b,a]},c,w);return[0,[0,ko(J,O(function(b,a){return[3,b,a]},y,u)),t,s]]},u),bh=d(function(a){return e_(x,n,g,a)},u),bi=[0,d(function(a){return pA(J,ax,x,n,g,a)},u),bh,bg,bf,be,bd,ba],bm=as(b[1]),ah=j6(j,ge(b[1]),bm,bi,bk,P);else
 var
 ah=av;if(ah)var
 ai=ah;else{if(typeof
 P!=="number"&&0===P[0]){var
-p=P[2],a6=P[1],t=a[1],aR=e5(j,a[2],u),aT=aR?hV(j,a,g,n):aR,al=0;if(aT){var
-by=a[6],Z=d4(j,f_(t),a6,by),am=0;if(Z){var
+p=P[2],a6=P[1],t=b[1],aQ=e$(j,b[2],u),aS=aQ?h1(j,b,g,n):aQ,al=0;if(aS){var
+bx=b[6],Z=d7(j,ge(t),a6,bx),am=0;if(Z){var
 G=Z[1][1],an=0;if(typeof
 G!=="number"&&15===G[0]){var
 _=F(u,G[1]);if(_){var
-o=_[1],$=bl(a[5],n,g,o);if(typeof
+o=_[1],$=bl(b[5],n,g,o);if(typeof
 t==="number")if(0===o[0])if(2===o[1][0]){var
 ao=0;if(p)if(p[2])var
-s=0;else{var
-aN=[0,f0(p[1]),0];ao=1}else{var
+r=0;else{var
+aN=[0,f6(p[1]),0];ao=1}else{var
 aN=p;ao=1}if(ao)var
-s=aN}else
+r=aN}else
 if(p)var
-s=0;else{var
-aK=function(c){var
-a=[0,[0,[0,b,b],[0,d,b],[0,d,b]],[0,[0,[0,d,b],[0,b,b],[0,d,b]],[0,[0,[0,d,b],[0,d,b],[0,b,b]],0]]];return e(function(b){var
-a=cy(c,b);return[0,a[1],[0,a[2],[0,a[3],0]]]},a)},aL=typeof
+r=0;else{var
+aK=function(b){var
+c=[0,[0,[0,a,a],[0,e,a],[0,e,a]],[0,[0,[0,e,a],[0,a,a],[0,e,a]],[0,[0,[0,e,a],[0,e,a],[0,a,a]],0]]];return d(function(c){var
+a=cz(b,c);return[0,a[1],[0,a[2],[0,a[3],0]]]},c)},aL=typeof
 t==="number"?1:0;if(aL)if(t)if(0===o[0]){var
-R=o[1],ar=0;switch(R[0]){case
+R=o[1],aq=0;switch(R[0]){case
 0:var
-X=R[1];ar=1;break;case
+X=R[1];aq=1;break;case
 1:var
-X=aS(R[1],R[2],$);ar=1;break;default:var
-s=0}if(ar)var
-s=[0,[0,[3,[0,d,b],X[2]],[0,X[1],0]],0]}else
+X=aW(R[1],R[2],$);aq=1;break;default:var
+r=0}if(aq)var
+r=[0,[0,[3,[0,e,a],X[2]],[0,X[1],0]],0]}else
 var
-s=0;else
+r=0;else
 if(0===o[0]){var
 E=o[1];switch(E[0]){case
 0:var
-aM=E[1],Y=d3(aM,E[2],E[3],$),bx=aK(aM),s=[0,[0,Y[1],[0,Y[2],[0,Y[3],0]]],bx];break;case
+aM=E[1],Y=d6(aM,E[2],E[3],$),bw=aK(aM),r=[0,[0,Y[1],[0,Y[2],[0,Y[3],0]]],bw];break;case
 1:var
-s=aK(aS(E[1],E[2],$));break;default:var
-s=0}}else
+r=aK(aW(E[1],E[2],$));break;default:var
+r=0}}else
 var
-s=0;else
+r=0;else
 var
-s=aL}else{var
-as=0;if(p)if(p[2])var
-s=0;else{var
-aO=[0,f0(p[1]),0];as=1}else{var
-aO=p;as=1}if(as)var
-s=aO}else{var
+r=aL}else{var
+ar=0;if(p)if(p[2])var
+r=0;else{var
+aO=[0,f6(p[1]),0];ar=1}else{var
+aO=p;ar=1}if(ar)var
+r=aO}else{var
 at=0;if(p)if(p[2])var
-s=0;else{var
-aQ=[0,f0(p[1]),0];at=1}else{var
-aQ=p;at=1}if(at)var
-s=aQ}var
-aW=G[3],aa=a[5],ab=a[3],bz=G[4],bA=G[2],T=ag(function(l){var
-T=pl(t,ab,aa,n,g,o),D=bj(l,l),E=[4,[4,bA,[6,bj(T,T)]],D],A=eb(aa,n,ea(o)),h=bl(aa,n,g,o),ax=typeof
-t==="number"?[0,[0,d,b],[0,d,b],[0,d,b]]:kM(t[1],l),s=S([5,[0,b,b],ab],ax),R=0===o[0]?b$(o[1],h):j5(o[1],h),ay=v(s,s),az=[4,v(R,A),ay],aA=v(A,s),aB=[3,[4,v(R,s),aA],az],aC=cy(s,A);function
-p(a){return q(a,l,[0,d,b])}if(typeof
+r=0;else{var
+aP=[0,f6(p[1]),0];at=1}else{var
+aP=p;at=1}if(at)var
+r=aP}var
+aV=G[3],aa=b[5],ab=b[3],bz=G[4],bA=G[2],S=ag(function(l){var
+S=pA(t,ab,aa,n,g,o),D=bj(l,l),E=[4,[4,bA,[6,bj(S,S)]],D],A=ee(aa,n,ed(o)),h=bl(aa,n,g,o),ax=typeof
+t==="number"?[0,[0,e,a],[0,e,a],[0,e,a]]:kT(t[1],l),s=T([5,[0,a,a],ab],ax),R=0===o[0]?cc(o[1],h):ka(o[1],h),ay=v(s,s),az=[4,v(R,A),ay],aA=v(A,s),aB=[3,[4,v(R,s),aA],az],aC=cz(s,A);function
+p(b){return q(b,l,[0,e,a])}if(typeof
 t==="number")if(t)var
-ag=p(yA),C=[0,p(0),ag,[0,d,b]];else
+ag=p(yW),C=[0,p(0),ag,[0,e,a]];else
 var
-ah=p(yB),ai=p(yC),C=[0,p(0),ai,ah];else
+ah=p(yX),ai=p(yY),C=[0,p(0),ai,ah];else
 var
-C=kL(t[1],l);var
-a=M(function(b,a){return[2,b,a]},C,aC);if(0===o[0]){var
+C=kS(t[1],l);var
+b=O(function(b,a){return[2,b,a]},C,aC);if(0===o[0]){var
 k=o[1];switch(k[0]){case
 0:var
-L=k[3],N=k[2],x=k[1],aj=b_(x,N,L,k[4],h),u=cx(k[5],aj),O=v(d3(x,N,L,h),a),P=v(aE(x),a),w=[2,[5,[3,v(a,a),[4,P,P]],u],[5,[4,O,O],[4,u,[4,u,u]]]];break;case
+L=k[3],M=k[2],y=k[1],aj=cb(y,M,L,k[4],h),u=cy(k[5],aj),N=v(d6(y,M,L,h),b),P=v(aG(y),b),x=[2,[5,[3,v(b,b),[4,P,P]],u],[5,[4,N,N],[4,u,[4,u,u]]]];break;case
 1:var
-r=aS(k[1],k[2],h),ak=[6,v(r,r)],al=v(r,r),Q=v(r,a),w=[5,[3,v(a,a),[5,[4,Q,Q],al]],ak];break;default:var
-w=[0,d,b]}}else
+r=aW(k[1],k[2],h),ak=[6,v(r,r)],al=v(r,r),Q=v(r,b),x=[5,[3,v(b,b),[5,[4,Q,Q],al]],ak];break;default:var
+x=[0,e,a]}}else
 var
-e=o[1],y=v(j5(e,h),a),am=d5(e,h),an=[4,e[5],am],ao=f4(e,h),aq=[4,[4,e[5],[4,y,y]],ao],ar=v(eX(e),a),as=[4,j3(e,h),ar],at=v(f1(e),a),au=[3,[4,j2(e,h),at],as],av=[4,e[5],y],aw=[4,[4,[0,c(2,b),b],av],au],w=[5,[2,[3,v(a,a),aw],aq],an];var
-F=[4,[4,aW,aW],[2,w,aB]],G=[4,bz,D],aF=ap(t),U=m(f(l),aF),V=U?i(j,1,D):U,W=V?typeof
+d=o[1],z=v(ka(d,h),b),am=d8(d,h),an=[4,d[5],am],ao=f_(d,h),ap=[4,[4,d[5],[4,z,z]],ao],aq=v(e3(d),b),ar=[4,j_(d,h),aq],at=v(f7(d),b),au=[3,[4,j9(d,h),at],ar],av=[4,d[5],z],aw=[4,[4,[0,c(2,a),a],av],au],x=[5,[2,[3,v(b,b),aw],ap],an];var
+F=[4,[4,aV,aV],[2,x,aB]],G=[4,bz,D],aD=as(t),U=m(f(l),aD),V=U?i(j,1,D):U,W=V?typeof
 t==="number"?1:i(j,1,ab):V;if(W){if(0===o[0]){var
 X=i(j,1,[3,[2,E,F],G]);return X?X:i(j,1,[3,[3,E,F],G])}var
-H=aD(j,E);if(H){var
-Y=H[1],I=aD(j,F);if(I){var
-Z=I[1],J=aD(j,G);if(J){var
-K=js(j,J[1]);if(K){var
-_=K[1],$=bT([0,B(z(Y,Z),_)]);if(!$)return bT([0,B(B(Y,Z),_)]);var
+H=aF(j,E);if(H){var
+Y=H[1],I=aF(j,F);if(I){var
+Z=I[1],J=aF(j,G);if(J){var
+K=jx(j,J[1]);if(K){var
+_=K[1],$=bW([0,B(w(Y,Z),_)]);if(!$)return bW([0,B(B(Y,Z),_)]);var
 ac=$}else
 var
 ac=K;var
@@ -8433,57 +8586,57 @@ var
 ae=I;var
 af=ae}else
 var
-af=H;return af}return W},s);am=1;an=1}else{var
-T=_;am=1;an=1}}if(!an)var
-aU=0}else
+af=H;return af}return W},r);am=1;an=1}else{var
+S=_;am=1;an=1}}if(!an)var
+aT=0}else
 var
-aU=Z;if(!am){var
-aV=aU;al=1}}else{var
-aV=aT;al=1}if(al)var
-T=aV;if(T)var
-a7=T;else{if(p){if(p[2])return 0;var
-aj=p[1],aB=a[1],Q=a[5],aC=e5(j,a[2],u),aF=aC?hV(j,a,g,n):aC;if(aF){var
-bo=a[6],U=d4(j,f_(aB),a6,bo);if(U){var
-L=U[1][1];if(typeof
-L!=="number"&&16===L[0]){var
-A=L[1],bp=a[2],bq=e(function(a){return e4(Q,n,g,qz(a))},bp),aI=h(cz(c1),A);if(aI)var
-bn=h(gV(c(2,b)),c1),D=[0,bw(d,aI[1][1]),bn];else
+aT=Z;if(!am){var
+aU=aT;al=1}}else{var
+aU=aS;al=1}if(al)var
+S=aU;if(S)var
+a7=S;else{if(p){if(p[2])return 0;var
+aj=p[1],aB=b[1],Q=b[5],aC=e$(j,b[2],u),aD=aC?h1(j,b,g,n):aC;if(aD){var
+bo=b[6],U=d7(j,ge(aB),a6,bo);if(U){var
+K=U[1][1];if(typeof
+K!=="number"&&16===K[0]){var
+A=K[1],bp=b[2],bq=d(function(a){return e_(Q,n,g,qO(a))},bp),aI=h(cA(c5),A);if(aI)var
+bn=h(g3(c(2,a)),c5),D=[0,by(e,aI[1][1]),bn];else
 var
-D=[0,d,b];var
+D=[0,e,a];var
 aJ=i(j,0,A);if(aJ)var
-br=a[2],V=l(function(a){var
-b=qz(a);if(0===b[0])return 1;var
-c=b[1],d=[1,c],e=cA(j,A),f=e?pm(j,a,d):e;return f?i(j,1,j1(c,bl(Q,n,g,d))):f},br);else
+br=b[2],V=k(function(a){var
+b=qO(a);if(0===b[0])return 1;var
+c=b[1],d=[1,c],e=cB(j,A),f=e?pB(j,a,d):e;return f?i(j,1,j8(c,bl(Q,n,g,d))):f},br);else
 var
 V=aJ;if(V)var
-bs=f(a[2]),W=m(f(aj),bs);else
+bs=f(b[2]),W=m(f(aj),bs);else
 var
 W=V;if(W){var
-bt=N(aj,bq),bu=N(N(u,e(function(o){var
-a=o[2],f=o[1];if(typeof
-a!=="number"&&1===a[0]){var
-g=a[2],k=a[1],p=c(2,c(2,c(2,r(c(2,c(2,b)))))),e=ia(A,bb(D,dQ([0,b,b],[0,b,h(gV(c(2,b)),p)])),f,[1,k,g]);if(typeof
+bt=M(aj,bq),bu=M(M(u,d(function(o){var
+b=o[2],f=o[1];if(typeof
+b!=="number"&&1===b[0]){var
+g=b[2],k=b[1],p=c(2,c(2,c(2,s(c(2,c(2,a)))))),e=ih(A,bb(D,dR([0,a,a],[0,a,h(g3(c(2,a)),p)])),f,[1,k,g]);if(typeof
 e!=="number"&&1===e[0]){var
-d=ef([5,e[2],[2,[0,b,b],e[1]]]),q=[4,g,d7(d)],l=[2,[4,k,d6(d)],q],s=[4,g,d6(d)],m=[3,[4,k,d7(d)],s],n=[4,bc(D),[2,[0,b,b],l]];if(i(j,1,[2,[0,b,b],l])&&i(j,0,[3,n,m])&&i(j,0,[2,n,m])){var
-t=d7(d);return[1,d6(d),t]}return ia(A,D,f,a)}return ia(A,D,f,a)}return ia(A,D,f,a)},bt)),aj),bv=y(function(t){var
-l=t[1],a=l[2],f=l[1],h=t[2],i=eb(Q,n,ea(f)),e=bl(Q,n,g,f);if(0===f[0]){var
+d=ei([5,e[2],[2,[0,a,a],e[1]]]),q=[4,g,d_(d)],l=[2,[4,k,d9(d)],q],r=[4,g,d9(d)],m=[3,[4,k,d_(d)],r],n=[4,bc(D),[2,[0,a,a],l]];if(i(j,1,[2,[0,a,a],l])&&i(j,0,[3,n,m])&&i(j,0,[2,n,m])){var
+t=d_(d);return[1,d9(d),t]}return ih(A,D,f,b)}return ih(A,D,f,b)}return ih(A,D,f,b)},bt)),aj),bv=y(function(t){var
+l=t[1],b=l[2],f=l[1],h=t[2],i=ee(Q,n,ed(f)),e=bl(Q,n,g,f);if(0===f[0]){var
 d=f[1];switch(d[0]){case
 0:var
 m=d[4],o=d[3],j=d[2],k=d[1];if(typeof
-a!=="number"&&0===a[0]){var
-p=a[1],u=0,w=S(p,aE(k)),x=M(function(b,a){return[3,b,a]},g,j),y=M(function(b,a){return[3,b,a]},x,w),z=aS(j,o,e),A=[3,v(aE(k),z),p],B=b_(k,j,o,m,e);return[0,[0,ef([5,[0,h,b],[2,cx(d[5],B),A]]),m,y,i],u]}return 0;case
+b!=="number"&&0===b[0]){var
+p=b[1],u=0,w=T(p,aG(k)),x=O(function(b,a){return[3,b,a]},g,j),y=O(function(b,a){return[3,b,a]},x,w),z=aW(j,o,e),A=[3,v(aG(k),z),p],B=cb(k,j,o,m,e);return[0,[0,ei([5,[0,h,a],[2,cy(d[5],B),A]]),m,y,i],u]}return 0;case
 1:if(typeof
-a!=="number"&&0===a[0]){var
-q=a[1],C=0,D=d[1],E=M(function(b,a){return[3,b,a]},g,D);return[0,[0,ef([5,[0,h,b],[2,q,cZ(d,e)]]),q,E,i],C]}return 0;default:return 0}}var
+b!=="number"&&0===b[0]){var
+q=b[1],C=0,D=d[1],E=O(function(b,a){return[3,b,a]},g,D);return[0,[0,ei([5,[0,h,a],[2,q,c3(d,e)]]),q,E,i],C]}return 0;default:return 0}}var
 c=f[1];if(typeof
-a!=="number"&&1===a[0]){var
-r=a[2],s=a[1],F=[4,r,f2(c,e)],G=[3,[4,s,f3(c,e)],F],I=S(r,f1(c)),H=0,J=S(s,eX(c)),K=M(function(b,a){return[2,b,a]},J,I),L=S(c[5],K),N=c[3],O=M(function(b,a){return[2,b,a]},N,L),P=M(function(b,a){return[3,b,a]},g,O),R=c[6],T=[2,d5(c,e),G];return[0,[0,ef([5,[0,h,b],[4,c[5],T]]),R,P,i],H]}return 0},bu);return qx(j,aB,L[2],L[3],bv)}return W}var
-aG=0}else
+b!=="number"&&1===b[0]){var
+r=b[2],s=b[1],F=[4,r,f8(c,e)],G=[3,[4,s,f9(c,e)],F],I=T(r,f7(c)),H=0,J=T(s,e3(c)),K=O(function(b,a){return[2,b,a]},J,I),L=T(c[5],K),M=c[3],N=O(function(b,a){return[2,b,a]},M,L),P=O(function(b,a){return[3,b,a]},g,N),R=c[6],S=[2,d8(c,e),G];return[0,[0,ei([5,[0,h,a],[4,c[5],S]]),R,P,i],H]}return 0},bu);return qM(j,aB,K[2],K[3],bv)}return W}var
+aE=0}else
 var
-aG=U;var
-aH=aG}else
+aE=U;var
+aH=aE}else
 var
-aH=aF;return aH}var
+aH=aD;return aH}var
 a7=p}return a7}var
 ai=0}}else
 var
@@ -8494,74 +8647,74 @@ a4=ae;var
 a5=a4}else
 var
 a5=ad;return a5}function
-c5(a){if(a){var
-b=cU(k(a[1]));if(b){var
-c=c5(a[2]);if(c)var
-f=c[1],d=[0,[0,dR(b[1]),f]];else
+da(a){if(a){var
+b=cV(l(a[1]));if(b){var
+c=da(a[2]);if(c)var
+f=c[1],d=[0,[0,dS(b[1]),f]];else
 var
 d=c;var
 e=d}else
 var
-e=b;return e}return EF}function
-iA(g,k,j,a,i){var
-l=f(g),h=m(f(a),l);if(h){var
-n=N(N(g,N(k,j)),a);return e(function(f){var
-g=f[1],h=g[2],j=dQ(h[2],h[1]),a=aT(g[1],i),k=D(d,a)?mJ(cm(c(2,b),a)):[0,b,eC(cm(c(2,b),U(a)))],l=dR(g5(bb([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return dR(bb(mJ(a),l))},m)},n)}return h}function
-lu(u,aU,aq,ap,t,ao,a){var
-c=ik(u,aU,aq,ap),ar=gs(y(ro,u),ao),g=ar?ix(u,aq,ap,c):ar;if(t){var
+e=b;return e}return E2}function
+iG(g,k,j,b,i){var
+l=f(g),h=m(f(b),l);if(h){var
+n=M(M(g,M(k,j)),b);return d(function(f){var
+g=f[1],h=g[2],j=dR(h[2],h[1]),b=aX(g[1],i),k=D(e,b)?mQ(cp(c(2,a),b)):[0,a,eH(cp(c(2,a),W(b)))],l=dS(ha(bb([0,c(2,a),a],k),j)),m=f[2];return d(function(a){return dS(bb(mQ(a),l))},m)},n)}return h}function
+lB(u,aU,aq,ap,t,ao,b){var
+c=ir(u,aU,aq,ap),ar=gy(y(rD,u),ao),g=ar?iD(u,aq,ap,c):ar;if(t){var
 v=t[2];if(v){var
 w=v[2];if(w){if(w[2])return 0;var
-h=w[1],i=v[1],m=t[1],as=rm(u,e(k,ao));if(as[2])return 0;var
+h=w[1],i=v[1],m=t[1],as=rB(u,d(l,ao));if(as[2])return 0;var
 f=as[1];if(typeof
-a!=="number")switch(a[0]){case
+b!=="number")switch(b[0]){case
 2:var
-J=a[1];if(J){var
+J=b[1];if(J){var
 K=J[2];if(K){var
 L=K[2];if(L){if(L[2]){var
-M=gq(c,a);if(M){var
-aX=k(h),aY=k(i),az=[0,k(m),aY,aX];if(g){var
-aA=fY(j,c,f,az,M[1]);if(aA)var
+M=gw(c,b);if(M){var
+aX=l(h),aY=l(i),az=[0,l(m),aY,aX];if(g){var
+aA=f4(j,c,f,az,M[1]);if(aA)var
 N=aA;else{if(typeof
-a!=="number"&&0===a[0]){var
-z=a[2];return z?z[2]?0:gg(j,c,f,az,a[1],z[1]):z}var
+b!=="number"&&0===b[0]){var
+z=b[2];return z?z[2]?0:gm(j,c,f,az,b[1],z[1]):z}var
 N=0}}else
 var
 N=g;var
 aB=N}else
 var
 aB=M;return aB}if(g){var
-aZ=k(L[1]),a0=k(K[1]),aC=[0,k(J[1]),a0,aZ],a1=k(h),a2=k(i),aD=[0,k(m),a2,a1],X=fW(j,c,f,aD),Y=X?cY(j,c[2],aC):X;if(Y){var
-aR=0,aS=0;return qm(j,0,[0,b,b],0,e(function(a){return[0,a]},f),aD,aS,aC,aR)}return Y}return g}var
-O=gq(c,a);if(O){var
-a4=k(h),a5=k(i),aE=[0,k(m),a5,a4];if(g){var
-aF=fY(j,c,f,aE,O[1]);if(aF)var
+aZ=l(L[1]),a0=l(K[1]),aC=[0,l(J[1]),a0,aZ],a1=l(h),a2=l(i),aD=[0,l(m),a2,a1],X=f2(j,c,f,aD),Y=X?c2(j,c[2],aC):X;if(Y){var
+aR=0,aS=0;return qB(j,0,[0,a,a],0,d(function(a){return[0,a]},f),aD,aS,aC,aR)}return Y}return g}var
+O=gw(c,b);if(O){var
+a3=l(h),a4=l(i),aE=[0,l(m),a4,a3];if(g){var
+aF=f4(j,c,f,aE,O[1]);if(aF)var
 P=aF;else{if(typeof
-a!=="number"&&0===a[0]){var
-A=a[2];return A?A[2]?0:gg(j,c,f,aE,a[1],A[1]):A}var
+b!=="number"&&0===b[0]){var
+A=b[2];return A?A[2]?0:gm(j,c,f,aE,b[1],A[1]):A}var
 P=0}}else
 var
 P=g;var
 aG=P}else
 var
 aG=O;return aG}var
-Q=gq(c,a);if(Q){var
-a6=k(h),a7=k(i),aH=[0,k(m),a7,a6];if(g){var
-aI=fY(j,c,f,aH,Q[1]);if(aI)var
+Q=gw(c,b);if(Q){var
+a6=l(h),a7=l(i),aH=[0,l(m),a7,a6];if(g){var
+aI=f4(j,c,f,aH,Q[1]);if(aI)var
 R=aI;else{if(typeof
-a!=="number"&&0===a[0]){var
-B=a[2];return B?B[2]?0:gg(j,c,f,aH,a[1],B[1]):B}var
+b!=="number"&&0===b[0]){var
+B=b[2];return B?B[2]?0:gm(j,c,f,aH,b[1],B[1]):B}var
 R=0}}else
 var
 R=g;var
 aJ=R}else
 var
 aJ=Q;return aJ}var
-S=gq(c,a);if(S){var
-a8=k(h),a9=k(i),aK=[0,k(m),a9,a8];if(g){var
-aL=fY(j,c,f,aK,S[1]);if(aL)var
+S=gw(c,b);if(S){var
+a8=l(h),a9=l(i),aK=[0,l(m),a9,a8];if(g){var
+aL=f4(j,c,f,aK,S[1]);if(aL)var
 T=aL;else{if(typeof
-a!=="number"&&0===a[0]){var
-C=a[2];return C?C[2]?0:gg(j,c,f,aK,a[1],C[1]):C}var
+b!=="number"&&0===b[0]){var
+C=b[2];return C?C[2]?0:gm(j,c,f,aK,b[1],C[1]):C}var
 T=0}}else
 var
 T=g;var
@@ -8569,29 +8722,29 @@ aM=T}else
 var
 aM=S;return aM;case
 3:var
-U=F(c[3],a[1]);if(U){var
+U=F(c[3],b[1]);if(U){var
 aN=U[1];if(typeof
 aN==="number"&&aN){var
-V=c5(a[2]);if(V){var
-n=V[1],W=c5(a[3]);if(W){var
+V=da(b[2]);if(V){var
+n=V[1],W=da(b[3]);if(W){var
 o=W[1];if(g){var
-a_=iA([0,d,[0,d,[0,d,0]]],n,o,a[4],a[5]),a$=k(h),ba=k(i),D=[0,k(m),ba,a$];if(n){var
+a_=iG([0,e,[0,e,[0,e,0]]],n,o,b[4],b[5]),a$=l(h),ba=l(i),D=[0,l(m),ba,a$];if(n){var
 p=n[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;if(o){var
 r=o[2];if(r){var
 s=r[2];if(s){if(s[2])return 0;var
-Z=s[1],_=r[1],$=o[1],aa=q[1],ab=p[1],ac=n[1],ad=[0,[1,0,ac,$],[1,yc,ab,_],[1,yb,aa,Z]],ae=fW(j,c,f,D);if(ae)var
+Z=s[1],_=r[1],$=o[1],aa=q[1],ab=p[1],ac=n[1],ad=[0,[1,0,ac,$],[1,yy,ab,_],[1,yx,aa,Z]],ae=f2(j,c,f,D);if(ae)var
 aT=c[3],E=ag(function(a){if(typeof
 a==="number"&&a)return 1;return 0},aT);else
 var
 E=ae;var
-af=E?h8(n,o):E,ah=af?kQ(j,c[2],[0,[0,ac,ab],aa],[0,[0,$,_],Z]):af,ai=ah?e8(j,n,o,a3(D)):ah,aj=ai?l(function(a){var
-b=e7(kR(a)),c=b?e7([0,cZ(a,D),0]):b;if(c){var
-d=jV(a,ad);if(d)return kP(j,yd,d[1]);var
+af=E?ic(n,o):E,ah=af?kX(j,c[2],[0,[0,ac,ab],aa],[0,[0,$,_],Z]):af,ai=ah?fc(j,n,o,a5(D)):ah,aj=ai?k(function(a){var
+b=fb(kY(a)),c=b?fb([0,c3(a,D),0]):b;if(c){var
+d=j2(a,ad);if(d)return kW(j,yz,d[1]);var
 e=1}else
 var
-e=c;return e},f):ai;if(aj)return h7(j,e(function(a){var
-b=cZ(a,D);return[3,cZ(a,ad),b]},f),a_);var
+e=c;return e},f):ai;if(aj)return ib(j,d(function(a){var
+b=c3(a,D);return[3,c3(a,ad),b]},f),a_);var
 ak=aj}else
 var
 ak=s;var
@@ -8618,12 +8771,12 @@ aP=V;return aP}var
 aQ=0}else
 var
 aQ=U;return aQ}var
-H=gq(c,a);if(H){var
-aV=k(h),aW=k(i),at=[0,k(m),aW,aV];if(g){var
-au=fY(j,c,f,at,H[1]);if(au)var
+H=gw(c,b);if(H){var
+aV=l(h),aW=l(i),at=[0,l(m),aW,aV];if(g){var
+au=f4(j,c,f,at,H[1]);if(au)var
 I=au;else{if(typeof
-a!=="number"&&0===a[0]){var
-x=a[2];return x?x[2]?0:gg(j,c,f,at,a[1],x[1]):x}var
+b!=="number"&&0===b[0]){var
+x=b[2];return x?x[2]?0:gm(j,c,f,at,b[1],x[1]):x}var
 I=0}}else
 var
 I=g;var
@@ -8639,396 +8792,396 @@ ax=v;var
 ay=ax}else
 var
 ay=t;return ay}function
-rA(n,m,b,l,C,B){var
-f=C,d=B;for(;;){if(0===d[0]){var
-h=d[1],i=F(f,h),o=i?aF(i[1][2],EI):i;if(o)var
-D=d[2],j=rA(n,m,b,l,li(0,h,f),D);else
+rP(n,m,b,l,C,B){var
+f=C,e=B;for(;;){if(0===e[0]){var
+h=e[1],i=F(f,h),o=i?aE(i[1][2],E5):i;if(o)var
+D=e[2],j=rP(n,m,b,l,lp(0,h,f),D);else
 var
 j=o;if(j){var
-E=d[3],f=li(1,h,f),d=E;continue}return j}var
-c=d[1],a=rf(0,n,f),p=e(function(b){function
-d(b){return rg(a,b)}function
-c(a){return lg(d,a)}switch(b[0]){case
+E=e[3],f=lp(1,h,f),e=E;continue}return j}var
+c=e[1],a=ru(0,n,f),p=d(function(b){function
+d(b){return rv(a,b)}function
+c(a){return ln(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=rg(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=rv(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
 i=x(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},m);if(0===b[0])var
-t=b[2],u=lg(function(b){return aC(a,b)},t),v=b[1],k=[0,lg(function(b){return aC(a,b)},v),u];else
+t=b[2],u=ln(function(b){return aD(a,b)},t),v=b[1],k=[0,ln(function(b){return aD(a,b)},v),u];else
 var
-w=aC(a,b[5]),y=aC(a,b[4]),z=aC(a,b[3]),A=aC(a,b[2]),k=[1,aC(a,b[1]),A,z,y,w];var
-q=e(function(g){var
+w=aD(a,b[5]),y=aD(a,b[4]),z=aD(a,b[3]),A=aD(a,b[2]),k=[1,aD(a,b[1]),A,z,y,w];var
+q=d(function(g){var
 c=g[4];if(typeof
 c==="number")var
-d=0;else
+e=0;else
 switch(c[0]){case
 0:var
-d=[0,aC(a,c[1])];break;case
+e=[0,aD(a,c[1])];break;case
 1:var
-d=[1,aC(a,c[1])];break;default:var
-m=aC(a,c[2]),d=[2,aC(a,c[1]),m]}var
+e=[1,aD(a,c[1])];break;default:var
+m=aD(a,c[2]),e=[2,aD(a,c[1]),m]}var
 h=g[3];if(h){var
 b=h[1];switch(b[0]){case
 0:var
-f=[0,[0,aC(a,b[1])]];break;case
+f=[0,[0,aD(a,b[1])]];break;case
 1:var
-j=b[1],f=[0,[1,e(function(b){return aC(a,b)},j)]];break;case
+j=b[1],f=[0,[1,d(function(b){return aD(a,b)},j)]];break;case
 2:var
-k=aC(a,b[2]),f=[0,[2,aC(a,b[1]),k]];break;default:var
-l=aC(a,b[2]),f=[0,[3,aC(a,b[1]),l]]}var
+k=aD(a,b[2]),f=[0,[2,aD(a,b[1]),k]];break;default:var
+l=aD(a,b[2]),f=[0,[3,aD(a,b[1]),l]]}var
 i=f}else
 var
-i=h;return[0,g[1],g[2],i,d]},l);if(typeof
+i=h;return[0,g[1],g[2],i,e]},l);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return lr(1,p,k,0,q,c[1],c[2],c[3]);default:var
+1:return ly(1,p,k,0,q,c[1],c[2],c[3]);default:var
 g=c[4],s=0;if(typeof
 g!=="number"&&2===g[0]){var
-J=g[1],r=[2,e(function(b){return aC(a,b)},J)];s=1}if(!s)var
+J=g[1],r=[2,d(function(b){return aD(a,b)},J)];s=1}if(!s)var
 r=g;var
-G=c[3],H=e(function(b){return aC(a,b)},G),I=c[2];return lu(p,k,0,q,e(function(b){return aC(a,b)},I),H,r)}}}function
-rB(h,g){var
-a=cU(k(h));if(a){var
-c=a[1],e=bp([0,d,b],c);if(e)return bp(c,g);var
-f=e}else
+G=c[3],H=d(function(b){return aD(a,b)},G),I=c[2];return lB(p,k,0,q,d(function(b){return aD(a,b)},I),H,r)}}}function
+rQ(h,g){var
+b=cV(l(h));if(b){var
+c=b[1],d=bq([0,e,a],c);if(d)return bq(c,g);var
+f=d}else
 var
-f=a;return f}function
-gt(b,a){if(a){var
+f=b;return f}function
+gz(b,a){if(a){var
 c=a[1],d=q(c,b,0);if(d)var
-g=aq(c,b),e=[0,[0,f(aW(function(a){return a},g))]];else
+g=ap(c,b),e=[0,[0,f(aP(function(a){return a},g))]];else
 var
-e=d;return e}return EK}function
-rC(b,c,a){return y(function(a){if(cg(a)){var
-d=il(0,b,0,a);return $(1,mF(e(function(a){return fZ(j,EL,a)},d)))}return $(0,f(q4(b,c,a)))},a)}function
-rD(c,a){return e(function(a){var
+e=d;return e}return E7}function
+rR(b,c,a){return y(function(a){if(cj(a)){var
+e=is(0,b,0,a);return X(1,mM(d(function(a){return f5(j,E8,a)},e)))}return X(0,f(rh(b,c,a)))},a)}function
+rS(c,a){return d(function(a){var
 b=a[4],d=a[3],e=a[2],f=a[1];return[0,y(function(b){var
-a=gt(c,b[1]),d=a?[0,[0,a[1],b[2]],0]:a;return d},f),e,d,b]},a)}function
-rE(b,a){if(typeof
+a=gz(c,b[1]),d=a?[0,[0,a[1],b[2]],0]:a;return d},f),e,d,b]},a)}function
+rT(b,a){if(typeof
 a!=="number")switch(a[0]){case
 0:var
-c=a[2],d=gt(b,a[1]);return x(function(a){return[0,a,c]},d);case
+c=a[2],d=gz(b,a[1]);return x(function(a){return[0,a,c]},d);case
 1:var
-e=a[2],f=gt(b,a[1]);return x(function(a){return[1,a,e]},f);case
+e=a[2],f=gz(b,a[1]);return x(function(a){return[1,a,e]},f);case
 3:var
-g=a[5],h=a[4],i=a[3],j=a[2],k=gt(b,a[1]);return x(function(a){return[3,a,j,i,h,g]},k)}return[0,a]}function
-ER(w){var
-gO=ii(w[3]),gP=gO?ii(w[4]):gO;if(gP){var
+g=a[5],h=a[4],i=a[3],j=a[2],k=gz(b,a[1]);return x(function(a){return[3,a,j,i,h,g]},k)}return[0,a]}function
+Fc(w){var
+gO=ip(w[3]),gP=gO?ip(w[4]):gO;if(gP){var
 ai=w[1];switch(ai[0]){case
 3:var
-gV=l(gn,ai[1]);if(gV)var
-lR=ai[2],dm=l(function(a){return gn(a[1])},lR);else
+gV=k(gt,ai[1]);if(gV)var
+lR=ai[2],dh=k(function(a){return gt(a[1])},lR);else
 var
-dm=gV;if(dm)var
-lS=ai[3],dn=l(function(a){var
-b=gn(a[1]),c=b?k8(a[2]):b;return c?go(a[2]):c},lS);else
+dh=gV;if(dh)var
+lS=ai[3],di=k(function(a){var
+b=gt(a[1]),c=b?ld(a[2]):b;return c?gu(a[2]):c},lS);else
 var
-dn=dm;if(dn)var
-lT=ai[4],bQ=l(function(a){var
-b=0===a[0]?a[1]:[0,a[1],0];return l(function(a){var
-b=k8(a);return b?go(a):b},b)},lT);else
+di=dh;if(di)var
+lT=ai[4],bQ=k(function(a){var
+b=0===a[0]?a[1]:[0,a[1],0];return k(function(a){var
+b=ld(a);return b?gu(a):b},b)},lT);else
 var
-bQ=dn;break;case
+bQ=di;break;case
 7:var
-lU=ai[1],gW=l(function(a){var
-b=gn(a[1]);return b?gp(0,[0,a[2][1],[0,a[2][2],0]]):b},lU),bQ=gW?gp(0,[0,ai[5],[0,ai[6],0]]):gW;break;default:var
+lU=ai[1],gW=k(function(a){var
+b=gt(a[1]);return b?gv(0,[0,a[2][1],[0,a[2][2],0]]):b},lU),bQ=gW?gv(0,[0,ai[5],[0,ai[6],0]]):gW;break;default:var
 bQ=1}var
-dh=bQ}else
+df=bQ}else
 var
-dh=gP;var
-eo=0;if(dh){var
-gQ=w[1],dl=7===gQ[0]?e(as,gQ[1]):0,gR=function(c,b){var
-a=q1(c);return a?l(function(a){var
-e=a[1],b=l(function(a){return k7(a[2])},e);if(b){var
-c=a[3];if(c)return gp(dl,q0(c[1]));var
+df=gP;var
+el=0;if(df){var
+gQ=w[1],dg=7===gQ[0]?d(ao,gQ[1]):0,gR=function(c,b){var
+a=re(c);return a?k(function(a){var
+e=a[1],b=k(function(a){return lc(a[2])},e);if(b){var
+c=a[3];if(c)return gv(dg,rd(c[1]));var
 d=1}else
 var
 d=b;return d},b):a},gS=function(e,d,c,b){var
-a=q1(e);return a?gp(dl,g(d,g(c,q0(b)))):a},o=w[1];switch(o[0]){case
+a=re(e);return a?gv(dg,g(d,g(c,rd(b)))):a},o=w[1];switch(o[0]){case
 0:var
-le=y(ei,o[4]),lf=g(y(qY,o[3]),le),lg=g(qW(o[2]),lf),aj=g(y(k9,o[1]),lg);break;case
+k9=y(em,o[4]),k_=g(y(rb,o[3]),k9),k$=g(q$(o[2]),k_),aj=g(y(le,o[1]),k$);break;case
 1:var
-db=o[5],de=o[3],li=y(ei,o[6]),lm=db?qX(db[1]):db,lv=g(lm,li),lw=g(qV(o[4]),lv),lx=de?[0,de[1],0]:de,ly=g(lx,lw),aj=g(y(Da,o[2]),ly);break;case
+dc=o[5],dd=o[3],la=y(em,o[6]),lb=dc?ra(dc[1]):dc,lg=g(lb,la),lk=g(q_(o[4]),lg),ll=dd?[0,dd[1],0]:dd,lm=g(ll,lk),aj=g(y(Dx,o[2]),lm);break;case
 2:var
-lz=y(ei,o[7]),lA=g(y(qY,o[6]),lz),lB=g(qX(o[5]),lA),lC=g(qV(o[4]),lB),lD=[0,o[3],lC],lE=o[2],aj=g(y(function(a){return y(fc,g(a[1],a[2]))},lE),lD);break;case
+ln=y(em,o[7]),lp=g(y(rb,o[6]),ln),lt=g(ra(o[5]),lp),lC=g(q_(o[4]),lt),lD=[0,o[3],lC],lE=o[2],aj=g(y(function(a){return y(fh,g(a[1],a[2]))},lE),lD);break;case
 3:var
-lF=y(ei,o[7]),lG=g(o[6],lF),lH=g(o[5],lG),lI=o[2],aj=g(y(function(a){return fc(a[2])},lI),lH);break;case
+lF=y(em,o[7]),lG=g(o[6],lF),lH=g(o[5],lG),lI=o[2],aj=g(y(function(a){return fh(a[2])},lI),lH);break;case
 4:var
-lJ=y(ei,o[3]),aj=[0,o[1],[0,o[2],lJ]];break;case
+lJ=y(em,o[3]),aj=[0,o[1],[0,o[2],lJ]];break;case
 5:var
-lK=y(ei,o[4]),lL=g(ce(o[3]),lK),lM=g(ce(o[2]),lL),lN=g(y(k9,o[1]),lM),aj=[0,o[5],lN];break;case
+lK=y(em,o[4]),lL=g(ch(o[3]),lK),lM=g(ch(o[2]),lL),lN=g(y(le,o[1]),lM),aj=[0,o[5],lN];break;case
 6:var
-dg=o[1],aj=dg?fc(dg[1]):dg;break;default:var
-lO=y(ei,o[4]),lP=g(qW(o[3]),lO),aj=g(y(k9,o[2]),lP)}var
-gT=gp(dl,aj);if(gT){var
+de=o[1],aj=de?fh(de[1]):de;break;default:var
+lO=y(em,o[4]),lP=g(q$(o[3]),lO),aj=g(y(le,o[2]),lP)}var
+gT=gv(dg,aj);if(gT){var
 ak=w[2];switch(ak[0]){case
 0:var
 br=gR(ak[1],ak[3]);break;case
 1:var
 br=gS(ak[1],ak[2],ak[3],ak[4]);break;default:var
-lQ=ak[1],br=l(function(a){if(typeof
+lQ=ak[1],br=k(function(a){if(typeof
 a!=="number")switch(a[0]){case
 1:return gR(a[1],a[3]);case
 2:return gS(a[1],a[2],a[3],a[4])}return 1},lQ)}}else{var
-gU=gT;eo=1}}else{var
-gU=dh;eo=1}if(eo)var
+gU=gT;el=1}}else{var
+gU=df;el=1}if(el)var
 br=gU;if(br){var
-a=w[1];switch(a[0]){case
+b=w[1];switch(b[0]){case
 0:var
-Q=a[4],am=a[3],an=a[2],R=a[1],aI=w[2];switch(aI[0]){case
+Q=b[4],am=b[3],an=b[2],S=b[1],aJ=w[2];switch(aJ[0]){case
 0:var
-dI=aI[3],hq=aI[2],dJ=aI[1],g8=rC(f(R),am,Q),l2=aW(function(a){return J(cg(a))},Q);if(ag(cg,Q)){var
-g9=lr(0,R,an,am,l2,dJ,hq,rD(e(J,g8),dI));if(g9){var
-l3=rD(g8,dI),l4=aW(cg,Q),l5=lc(an);return ls(0,e(lb,R),0,l5,0,l4,dJ,0,l3)}return g9}return lr(0,R,an,am,Q,dJ,hq,dI);case
+dH=aJ[3],hq=aJ[2],dI=aJ[1],g8=rR(f(S),am,Q),l2=aP(function(a){return L(cj(a))},Q);if(ag(cj,Q)){var
+g9=ly(0,S,an,am,l2,dI,hq,rS(d(L,g8),dH));if(g9){var
+l3=rS(g8,dH),l4=aP(cj,Q),l5=lj(an);return lz(0,d(li,S),0,l5,0,l4,dI,0,l3)}return g9}return ly(0,S,an,am,Q,dI,hq,dH);case
 1:var
-dK=aI[4],dL=aI[3],dM=aI[2],g_=rC(f(R),am,Q),dy=aW(function(a){return J(cg(a))},Q);if(ag(cg,Q)){var
-l6=aW(cg,Q),l7=lc(an),g$=iw(0,e(lb,R),0,l7,0,l6);if(g$)var
-dA=rE(e(J,g_),dK),l8=dA?lu(R,an,am,dy,dM,dL,dA[1]):dA,dB=l8;else
+dK=aJ[4],dL=aJ[3],dM=aJ[2],g_=rR(f(S),am,Q),dw=aP(function(a){return L(cj(a))},Q);if(ag(cj,Q)){var
+l6=aP(cj,Q),l7=lj(an),g$=iC(0,d(li,S),0,l7,0,l6);if(g$)var
+dx=rT(d(L,g_),dK),l8=dx?lB(S,an,am,dw,dM,dL,dx[1]):dx,dz=l8;else
 var
-dB=g$;if(dB)var
-dC=dB;else{var
-ha=ix(R,am,dy,ik(R,an,am,dy));if(ha){var
-dD=rE(g_,dK);if(dD){var
-l9=dD[1],l_=aW(cg,Q),l$=lc(an);return lt(0,e(lb,R),0,l$,0,l_,dM,dL,l9)}var
-dC=dD}else
+dz=g$;if(dz)var
+dB=dz;else{var
+ha=iD(S,am,dw,ir(S,an,am,dw));if(ha){var
+dC=rT(g_,dK);if(dC){var
+l9=dC[1],l_=aP(cj,Q),l$=lj(an);return lA(0,d(li,S),0,l$,0,l_,dM,dL,l9)}var
+dB=dC}else
 var
-dC=ha}return dC}return lu(R,an,am,Q,dM,dL,dK);default:return 0}case
+dB=ha}return dB}return lB(S,an,am,Q,dM,dL,dK);default:return 0}case
 1:var
-bs=a[6],bV=a[5],bW=a[4],bX=a[3],X=a[2],T=a[1],aJ=w[2];switch(aJ[0]){case
-0:return ls(T,X,bX,bW,bV,bs,aJ[1],aJ[2],aJ[3]);case
+bs=b[6],bU=b[5],bV=b[4],bW=b[3],Z=b[2],U=b[1],aK=w[2];switch(aK[0]){case
+0:return lz(U,Z,bW,bV,bU,bs,aK[1],aK[2],aK[3]);case
 1:var
-ao=aJ[4],dO=aJ[3],hr=aJ[2];if(typeof
-ao!=="number"&&3===ao[0]){var
-mk=ao[5],ml=ao[4],mm=ao[3],mn=ao[2],mo=ao[1],s=typeof
-T==="number"?T?EG:EH:iv(T[1]),gX=dN(ap(T),s),dq=e(k,hr),a7=la(T,X,bX,bW,bV,bs),gY=rz(a7[2]),gZ=ll(X,e(k,dO));if(gZ[2])return 0;var
-dr=c5(mn);if(dr){var
-W=dr[1],dt=c5(mm);if(dt){var
-aH=dt[1],g0=gs(y(ln,X),dO),g1=g0?iw(T,X,bX,bW,bV,bs):g0;if(g1)var
-lW=ap(T),dv=m(f(dq),lW);else
+aq=aK[4],dN=aK[3],hr=aK[2];if(typeof
+aq!=="number"&&3===aq[0]){var
+mk=aq[5],ml=aq[4],mm=aq[3],mn=aq[2],mo=aq[1],s=typeof
+U==="number"?U?E3:E4:iB(U[1]),gX=dO(as(U),s),dk=d(l,hr),a7=lh(U,Z,bW,bV,bU,bs),gY=rO(a7[2]),gZ=ls(Z,d(l,dN));if(gZ[2])return 0;var
+dn=da(mn);if(dn){var
+Y=dn[1],dq=da(mm);if(dq){var
+aI=dq[1],g0=gy(y(lu,Z),dN),g1=g0?iC(U,Z,bW,bV,bU,bs):g0;if(g1)var
+lW=as(U),dt=m(f(dk),lW);else
 var
-dv=g1;if(dv)var
-lX=f(X),lY=f_(T),dw=m(mo,ep(el(X),lY,lX,0,bs));else
+dt=g1;if(dt)var
+lX=f(Z),lY=ge(U),du=m(mo,et(ep(Z),lY,lX,0,bs));else
 var
-dw=dv;if(dw){if(el(X))var
-lZ=$(d,gX),g2=g($(gY,s),lZ);else
+du=dt;if(du){if(ep(Z))var
+lZ=X(e,gX),g2=g(X(gY,s),lZ);else
 var
-l1=$(U(gY),gX),g2=g($(d,s),l1);var
-l0=iA(g2,W,aH,ml,mk),al=az(s,dq),bn=aP(aq(s,dq)),dx=gZ[1],P=a7[5],fE=kO(0,W,aH),cE=qs(aq(s,fE)),cF=az(s,fE),fF=a7[7],fG=fF?e5(j,a7[2],dx):fF,fH=fG?hV(j,a7,bn,al):fG,fI=fH?ae(s,yn):fH;if(fI)var
-j_=O(s,f(al)),cG=m(f(W),j_);else
+l1=X(W(gY),gX),g2=g(X(e,s),l1);var
+l0=iG(g2,Y,aI,ml,mk),al=aw(s,dk),bn=aR(ap(s,dk)),dv=gZ[1],N=a7[5],fE=kV(0,Y,aI),cE=qH(ap(s,fE)),cF=aw(s,fE),fF=a7[7],fG=fF?e$(j,a7[2],dv):fF,fH=fG?h1(j,a7,bn,al):fG,fI=fH?ae(s,yJ):fH;if(fI)var
+j8=P(s,f(al)),cG=m(f(Y),j8);else
 var
 cG=fI;var
-fK=cG?h8(W,aH):cG;if(fK)var
-j$=h9(aq(s,aH)),ka=h9(aq(s,W)),cH=kQ(j,a7[4],ka,j$);else
+fJ=cG?ic(Y,aI):cG;if(fJ)var
+j9=id(ap(s,aI)),j_=id(ap(s,Y)),cH=kX(j,a7[4],j_,j9);else
 var
-cH=fK;if(cH){var
-kb=az(s,aH),kc=az(s,W);if(P)var
-fC=P[1],j9=0===fC[0]?yl:ym,fD=m(f(al),j9),fL=fD?qr(j,fC,kc,kb):fD;else
+cH=fJ;if(cH){var
+j$=aw(s,aI),ka=aw(s,Y);if(N)var
+fC=N[1],j7=0===fC[0]?yH:yI,fD=m(f(al),j7),fK=fD?qG(j,fC,ka,j$):fD;else
 var
-fL=m(f(al),0);var
-cI=fL}else
+fK=m(f(al),0);var
+cI=fK}else
 var
 cI=cH;if(cI){var
-kd=aq(s,a3(bn)),ke=aq(s,aH),fM=e8(j,aq(s,W),ke,kd);if(fM)var
-a5=fM;else
-if(P){var
-fO=qq(P[1]);if(fO)var
-kf=az(s,aH),a5=e8(j,az(s,W),kf,al);else
+kb=ap(s,a5(bn)),ke=ap(s,aI),fL=fc(j,ap(s,Y),ke,kb);if(fL)var
+a2=fL;else
+if(N){var
+fN=qF(N[1]);if(fN)var
+kf=aw(s,aI),a2=fc(j,aw(s,Y),kf,al);else
 var
-a5=fO}else
+a2=fN}else
 var
-a5=P}else
+a2=N}else
 var
-a5=cI;var
-fN=a5?l(function(b){var
-a=e4(P,al,bn,b),t=typeof
+a2=cI;var
+fM=a2?k(function(b){var
+a=e_(N,al,bn,b),t=typeof
 a==="number"?0:0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]];if(0===b[0])var
-k=kR(b[1]);else
+l=kY(b[1]);else
 var
-c=b[1],p=[0,c[5],[0,c[6],0]],q=g(a3(c[4]),p),r=g(a3(c[3]),q),s=g(a3(c[2]),r),k=g(a3(c[1]),s);var
-m=e7(g(k,t));if(m)var
-u=ki(P,al,bn,b),v=1,e=l(function(a){return i(j,v,a)},u);else
+c=b[1],p=[0,c[5],[0,c[6],0]],q=g(a5(c[4]),p),r=g(a5(c[3]),q),s=g(a5(c[2]),r),l=g(a5(c[1]),s);var
+m=fb(g(l,t));if(m)var
+u=kp(N,al,bn,b),v=1,e=k(function(a){return i(j,v,a)},u);else
 var
 e=m;if(e){var
-d=e4(P,cF,cE,b),n=0;if(typeof
+d=e_(N,cF,cE,b),n=0;if(typeof
 d==="number"||!(1===d[0]))n=1;else{var
 o=0;if(typeof
 a!=="number"&&1===a[0]){var
 h=[0,[2,[4,d[1],a[1]],[4,d[2],a[2]]],0];o=1}if(!o)var
 h=0}if(n)var
 h=0;var
-w=g(ki(P,cF,cE,b),h),x=f(W);return l(function(a){return kP(j,x,a)},w)}return e},dx):a5;return fN?h7(j,e(function(d){var
-a=e4(P,al,bn,d),c=e4(P,cF,cE,d);if(typeof
-c==="number")return[0,b,b];else{if(0===c[0]){if(typeof
-a!=="number"&&0===a[0])return[3,c[1],a[1]];return[0,b,b]}if(typeof
-a!=="number"&&1===a[0])return[3,[4,c[2],a[1]],[4,c[1],a[2]]];return[0,b,b]}},dx),l0):fN}var
-g3=dw}else
+w=g(kp(N,cF,cE,b),h),x=f(Y);return k(function(a){return kW(j,x,a)},w)}return e},dv):a2;return fM?ib(j,d(function(d){var
+b=e_(N,al,bn,d),c=e_(N,cF,cE,d);if(typeof
+c==="number")return[0,a,a];else{if(0===c[0]){if(typeof
+b!=="number"&&0===b[0])return[3,c[1],b[1]];return[0,a,a]}if(typeof
+b!=="number"&&1===b[0])return[3,[4,c[2],b[1]],[4,c[1],b[2]]];return[0,a,a]}},dv),l0):fM}var
+g3=du}else
 var
-g3=dt;var
+g3=dq;var
 g4=g3}else
 var
-g4=dr;return g4}return lt(T,X,bX,bW,bV,bs,hr,dO,ao);default:return 0}case
+g4=dn;return g4}return lA(U,Z,bW,bV,bU,bs,hr,dN,aq);default:return 0}case
 2:var
-aL=a[7],aN=a[6],bY=a[5],bZ=a[4],b0=a[3],Y=a[2],Z=a[1],aO=w[2];switch(aO[0]){case
+aL=b[7],aM=b[6],bY=b[5],bZ=b[4],b0=b[3],_=b[2],$=b[1],aO=w[2];switch(aO[0]){case
 0:var
-hs=aO[3],ar=q9(Z,Y,b0,bZ,bY,aN,aL),mp=ar[2],dP=G(b,bU(y(function(a){var
-b=bk(a[2]);return g(bk(a[1]),b)},mp))),mq=f(hs),mr=ks(dP,ar[2]),ms=ks(dP,ar[2]),dQ=em(bK(Z),ms,mr,0,mq,hs);if(dQ){var
+hs=aO[3],ar=rm($,_,b0,bZ,bY,aM,aL),mp=ar[2],dP=G(a,bX(y(function(a){var
+b=bk(a[2]);return g(bk(a[1]),b)},mp))),mq=f(hs),mr=kz(dP,ar[2]),ms=kz(dP,ar[2]),dQ=eq(bM($),ms,mr,0,mq,hs);if(dQ){var
 ht=dQ[1];if(ht[2])return 0;var
-hu=rs(Z,Y,b0,bZ,bY,aN,aL);if(hu){var
-mt=ht[1],mu=f(Y),mv=ep(0,lo(Z),mu,aN,aL),mw=iz(aO[2]),mx=aO[1],iZ=ar[2],eu=l(function(a){var
-b=pM(j,a[1]);return b?pM(j,a[2]):b},iZ);if(eu)var
-i0=jX(ar[4]),cc=cY(j,ar[4],i0);else
+hu=rH($,_,b0,bZ,bY,aM,aL);if(hu){var
+mt=ht[1],mu=f(_),mv=et(0,lv($),mu,aM,aL),mw=iF(aO[2]),mx=aO[1],iZ=ar[2],eu=k(function(a){var
+b=p1(j,a[1]);return b?p1(j,a[2]):b},iZ);if(eu)var
+i0=j4(ar[4]),cb=c2(j,ar[4],i0);else
 var
-cc=eu;if(cc)var
-i1=hS(ar[5]),ch=l(function(a){return ga(j,a)},i1);else
+cb=eu;if(cb)var
+i1=hY(ar[5]),cc=k(function(a){return gg(j,a)},i1);else
 var
-ch=cc;return ch?xl(mx,mw,mv,ar,dP,mt):ch}var
+cc=cb;return cc?xH(mx,mw,mv,ar,dP,mt):cc}var
 hv=hu}else
 var
 hv=dQ;return hv;case
 1:var
-aa=aO[4],hw=aO[3],aQ=e(k,aO[2]),r=iv(Z),hx=rn(Y,e(k,hw));if(hx[2])return 0;var
-t=hx[1],hy=gs(y(function(a){return g(a[1],a[2])},Y),hw),hz=hy?rs(Z,Y,b0,bZ,bY,aN,aL):hy;if(hz){var
-p=q9(Z,Y,b0,bZ,bY,aN,aL);if(typeof
+aa=aO[4],hw=aO[3],aQ=d(l,aO[2]),r=iB($),hx=rC(_,d(l,hw));if(hx[2])return 0;var
+t=hx[1],hy=gy(y(function(a){return g(a[1],a[2])},_),hw),hz=hy?rH($,_,b0,bZ,bY,aM,aL):hy;if(hz){var
+p=rm($,_,b0,bZ,bY,aM,aL);if(typeof
 aa!=="number")switch(aa[0]){case
 2:var
-hH=e(k,aa[1]),hI=az(r,hH),hJ=aP(aq(r,hH)),hK=az(r,aQ),hL=aP(aq(r,aQ)),ev=eZ(j,p,t,hL,hK),ew=ev?eZ(j,p,t,hJ,hI):ev;if(ew)var
-i2=bK(p[1]),ci=m(f(t),i2);else
+hF=d(l,aa[1]),hG=aw(r,hF),hJ=aR(ap(r,hF)),hK=aw(r,aQ),hL=aR(ap(r,aQ)),ev=e5(j,p,t,hL,hK),ew=ev?e5(j,p,t,hJ,hG):ev;if(ew)var
+i2=bM(p[1]),ce=m(f(t),i2);else
 var
-ci=ew;if(ci){var
+ce=ew;if(ce){var
 ex=function(b,a){var
-c=p[5],d=p[3],f=p[1];return e(function(e){return j8(f,d,c,a,b,e)},t)},i3=ex(hJ,hI),i4=ex(hL,hK);return kA(j,bK(p[1]),i4,i3)}return ci;case
+c=p[5],e=p[3],f=p[1];return d(function(d){return kd(f,e,c,a,b,d)},t)},i3=ex(hJ,hG),i4=ex(hL,hK);return kH(j,bM(p[1]),i4,i3)}return ce;case
 3:var
-dT=c5(aa[2]);if(dT){var
-at=dT[1],dU=c5(aa[3]);if(dU){var
-aR=dU[1],mz=p[2],mA=G(b,bU(y(function(a){var
-b=bk(a[2]);return g(bk(a[1]),b)},mz))),mB=f(Y),mC=ep(0,lo(Z),mB,aN,aL),hN=m(aa[1],mC);if(hN){var
-mD=aa[5],mE=aa[4],mF=$(U(mA),dN(f(aQ),r)),mG=iA(g($(d,r),mF),at,aR,mE,mD),a8=az(r,aQ),b3=aP(aq(r,aQ)),a1=p[5],fu=kO(0,at,aR),fv=p[7],fw=fv?eZ(j,p,t,b3,a8):fv,fx=fw?ae(r,yi):fw;if(fx)var
-jW=O(r,f(a8)),cz=m(f(at),jW);else
+dT=da(aa[2]);if(dT){var
+at=dT[1],dU=da(aa[3]);if(dU){var
+aS=dU[1],mz=p[2],mA=G(a,bX(y(function(a){var
+b=bk(a[2]);return g(bk(a[1]),b)},mz))),mB=f(_),mC=et(0,lv($),mB,aM,aL),hM=m(aa[1],mC);if(hM){var
+mD=aa[5],mE=aa[4],mF=X(W(mA),dO(f(aQ),r)),mG=iG(g(X(e,r),mF),at,aS,mE,mD),a8=aw(r,aQ),b3=aR(ap(r,aQ)),a1=p[5],fu=kV(0,at,aS),fv=p[7],fw=fv?e5(j,p,t,b3,a8):fv,fx=fw?ae(r,yE):fw;if(fx)var
+jS=P(r,f(a8)),cy=m(f(at),jS);else
 var
-cz=fx;if(cz)var
-j0=0===a1[0]?yj:yk,cA=m(f(a8),j0);else
+cy=fx;if(cy)var
+jT=0===a1[0]?yF:yG,cA=m(f(a8),jT);else
 var
-cA=cz;var
-fy=cA?h8(at,aR):cA;if(fy)var
-j1=h9(aq(r,aR)),j2=h9(aq(r,at)),cB=kQ(j,p[4],j2,j1);else
+cA=cy;var
+fy=cA?ic(at,aS):cA;if(fy)var
+jX=id(ap(r,aS)),jZ=id(ap(r,at)),cB=kX(j,p[4],jZ,jX);else
 var
 cB=fy;if(cB)var
-j3=az(r,aR),cD=qr(j,a1,az(r,at),j3);else
+j0=aw(r,aS),cC=qG(j,a1,aw(r,at),j0);else
 var
-cD=cB;if(cD){var
-j4=aq(r,a3(b3)),j5=aq(r,aR),fz=e8(j,aq(r,at),j5,j4);if(fz)var
+cC=cB;if(cC){var
+j1=ap(r,a5(b3)),j2=ap(r,aS),fz=fc(j,ap(r,at),j2,j1);if(fz)var
 bl=fz;else{var
-fB=qq(a1);if(fB)var
-j6=az(r,aR),bl=e8(j,az(r,at),j6,a8);else
+fB=qF(a1);if(fB)var
+j3=aw(r,aS),bl=fc(j,aw(r,at),j3,a8);else
 var
 bl=fB}}else
 var
-bl=cD;var
-fA=bl?l(function(a){var
-c=a3(a[2]),b=e7(g(a3(a[1]),c));return b?e7([0,kS(a1,a8,b3,a),0]):b},t):bl;return fA?h7(j,e(function(a){var
-b=[6,kS(a1,a8,b3,a)],c=qs(aq(r,fu));return[3,[6,kS(a1,az(r,fu),c,a)],b]},t),mG):fA}var
+bl=cC;var
+fA=bl?k(function(a){var
+c=a5(a[2]),b=fb(g(a5(a[1]),c));return b?fb([0,kZ(a1,a8,b3,a),0]):b},t):bl;return fA?ib(j,d(function(a){var
+b=[6,kZ(a1,a8,b3,a)],c=qH(ap(r,fu));return[3,[6,kZ(a1,aw(r,fu),c,a)],b]},t),mG):fA}var
+hN=hM}else
+var
+hN=dU;var
 hO=hN}else
 var
-hO=dU;var
-hP=hO}else
+hO=dT;return hO}var
+my=f(_),dR=lw(0,lv($),my,aM,aL,aa);if(dR){var
+bt=dR[1],z=aR(ap(r,aQ)),u=aw(r,aQ),eo=e5(j,p,t,z,u);if(eo)var
+af=p[5],er=p[3],es=p[1],iW=p[6],b$=function(a){var
+b=cd(af,u,z,a);return v(cd(af,u,z,a),b)},iP=d(function(a){return[0,kd(es,er,af,u,z,a)]},t),iQ=d(b$,t),iR=function(a){var
+b=dy(af,u,a);return O(function(b,a){return[2,b,a]},z,b)},iS=d(function(a){var
+b=[6,b$(a)],c=cd(af,u,z,a),d=dy(af,u,a[2]);return[0,[0,[0,O(function(b,a){return[2,b,a]},z,d),c],b]]},t),iT=d(function(a){return 0},t),iU=d(function(a){return[0,[6,b$(a)]]},t),iV=[0,d(function(c){var
+b=aG(cd(af,u,z,c));return kc(es,b,T([5,[0,a,a],er],cz(dy(af,u,c[2]),b)))},t),iU,iT,iS,iR,iQ,iP],iX=bM(p[1]),iY=2<=p[1]?wu:wv,dS=j6(j,iY,iX,iV,iW,bt);else
 var
-hP=dT;return hP}var
-my=f(Y),dR=lp(0,lo(Z),my,aN,aL,aa);if(dR){var
-bt=dR[1],z=aP(aq(r,aQ)),u=az(r,aQ),er=eZ(j,p,t,z,u);if(er)var
-af=p[5],es=p[3],et=p[1],iW=p[6],cb=function(a){var
-b=ca(af,u,z,a);return v(ca(af,u,z,a),b)},iP=e(function(a){return[0,j8(et,es,af,u,z,a)]},t),iQ=e(cb,t),iR=function(a){var
-b=ds(af,u,a);return M(function(b,a){return[2,b,a]},z,b)},iS=e(function(a){var
-b=[6,cb(a)],c=ca(af,u,z,a),d=ds(af,u,a[2]);return[0,[0,[0,M(function(b,a){return[2,b,a]},z,d),c],b]]},t),iT=e(function(a){return 0},t),iU=e(function(a){return[0,[6,cb(a)]]},t),iV=[0,e(function(c){var
-a=aE(ca(af,u,z,c));return j7(et,a,S([5,[0,b,b],es],cy(ds(af,u,c[2]),a)))},t),iU,iT,iS,iR,iQ,iP],iX=bK(p[1]),iY=2<=p[1]?v_:v$,dS=jZ(j,iY,iX,iV,iW,bt);else
-var
-dS=er;if(dS)var
+dS=eo;if(dS)var
 hA=dS;else{if(typeof
 bt!=="number"&&0===bt[0]){var
 b1=bt[2];if(b1){if(b1[2])return 0;var
-b2=b1[1],hF=bt[1],bg=p[1],ff=eZ(j,p,t,z,u),eq=0;if(ff){var
-jM=p[6],jQ=2<=bg?x_:x$,cv=d4(j,jQ,hF,jM),b_=0;if(cv){var
-a0=cv[1][1],b$=0;if(typeof
+b2=b1[1],hD=bt[1],bg=p[1],fe=e5(j,p,t,z,u),en=0;if(fe){var
+jM=p[6],jN=2<=bg?yu:yv,cv=d7(j,jN,hD,jM),b8=0;if(cv){var
+a0=cv[1][1],b9=0;if(typeof
 a0!=="number"&&15===a0[0]){var
 cw=F(t,a0[1]);if(cw){var
-bh=f0(b2),fj=a0[3],bE=cw[1],bF=p[5],cx=p[3],jS=a0[4],jT=a0[2],e0=j8(bg,cx,bF,u,z,bE),e1=ca(bF,u,z,bE),cu=bj(bh,bh),e2=[4,[4,jT,[6,bj(e0,e0)]],cu],be=ca(bF,u,z,bE),cs=ds(bF,u,bE[2]),bf=S([5,[0,b,b],cx],kM(bg,bh)),jE=cy(bf,cs),jF=kL(bg,bh),ct=M(function(b,a){return[2,b,a]},jF,jE),eY=v(be,ct),jG=v(bf,bf),jH=[4,v(be,cs),jG],jI=v(cs,bf),jJ=[3,[4,v(be,bf),jI],jH],jK=[5,[4,eY,eY],v(be,be)],e3=[4,[4,fj,fj],[2,[3,v(ct,ct),jK],jJ]],e_=[4,[4,jS,cu],[6,v(e1,e1)]],jL=bK(bg),e$=m(f(bh),jL),fa=e$?i(j,1,cu):e$,fb=fa?i(j,1,cx):fa,iO=0;if(fb){var
-fd=i(j,1,[3,[2,e2,e3],e_]);if(fd)var
-fe=fd;else{var
-bv=i(j,1,[3,[3,e2,e3],e_]);b_=1;b$=1;iO=1}}else
+bh=f6(b2),fi=a0[3],bE=cw[1],bF=p[5],cx=p[3],jO=a0[4],jP=a0[2],eZ=kd(bg,cx,bF,u,z,bE),e0=cd(bF,u,z,bE),cu=bj(bh,bh),e1=[4,[4,jP,[6,bj(eZ,eZ)]],cu],be=cd(bF,u,z,bE),cs=dy(bF,u,bE[2]),bf=T([5,[0,a,a],cx],kT(bg,bh)),jE=cz(bf,cs),jF=kS(bg,bh),ct=O(function(b,a){return[2,b,a]},jF,jE),eY=v(be,ct),jG=v(bf,bf),jH=[4,v(be,cs),jG],jI=v(cs,bf),jJ=[3,[4,v(be,bf),jI],jH],jK=[5,[4,eY,eY],v(be,be)],e2=[4,[4,fi,fi],[2,[3,v(ct,ct),jK],jJ]],e3=[4,[4,jO,cu],[6,v(e0,e0)]],jL=bM(bg),e4=m(f(bh),jL),e6=e4?i(j,1,cu):e4,e7=e6?i(j,1,cx):e6,iO=0;if(e7){var
+e8=i(j,1,[3,[2,e1,e2],e3]);if(e8)var
+e9=e8;else{var
+bu=i(j,1,[3,[3,e1,e2],e3]);b8=1;b9=1;iO=1}}else
 var
-fe=fb;if(!iO){var
-bv=fe;b_=1;b$=1}}else{var
-bv=cw;b_=1;b$=1}}if(!b$)var
-fg=0}else
+e9=e7;if(!iO){var
+bu=e9;b8=1;b9=1}}else{var
+bu=cw;b8=1;b9=1}}if(!b9)var
+ff=0}else
 var
-fg=cv;if(!b_){var
-fh=fg;eq=1}}else{var
-fh=ff;eq=1}if(eq)var
-bv=fh;if(!bv){var
-fP=p[1],cJ=p[5],fQ=eZ(j,p,t,z,u);if(fQ){var
-kg=p[6],kh=2<=fP?yw:yx,cK=d4(j,kh,hF,kg);if(cK){var
+ff=cv;if(!b8){var
+fg=ff;en=1}}else{var
+fg=fe;en=1}if(en)var
+bu=fg;if(!bu){var
+fP=p[1],cJ=p[5],fQ=e5(j,p,t,z,u);if(fQ){var
+kg=p[6],kh=2<=fP?yS:yT,cK=d7(j,kh,hD,kg);if(cK){var
 bm=cK[1][1];if(typeof
 bm!=="number"&&16===bm[0]){var
-fT=bm[1],fV=i(j,0,fT);if(fV)var
-kj=f(p[2]),cL=m(f(b2),kj);else
+fT=bm[1],fU=i(j,0,fT);if(fU)var
+ki=f(p[2]),cL=m(f(b2),ki);else
 var
-cL=fV;if(cL){var
-kk=p[2],kl=N(N(t,h_(b2,e(function(a){var
-b=bM(a[2]);return qy(ca(cJ,u,z,[0,bM(a[1]),b]))},kk),fT)),b2),km=e(function(e){var
-c=e[1],d=c[2],a=c[1],f=ds(cJ,u,a[2]),g=a[1],h=M(function(b,a){return[3,b,a]},z,g),i=[2,d,qy(ca(cJ,u,z,a))];return[0,ef([5,[0,e[2],b],i]),d,h,f]},kl);return qx(j,[0,fP],bm[2],bm[3],km)}return cL}var
+cL=fU;if(cL){var
+kj=p[2],kk=M(M(t,ie(b2,d(function(a){var
+b=bO(a[2]);return qN(cd(cJ,u,z,[0,bO(a[1]),b]))},kj),fT)),b2),kl=d(function(e){var
+c=e[1],d=c[2],b=c[1],f=dy(cJ,u,b[2]),g=b[1],h=O(function(b,a){return[3,b,a]},z,g),i=[2,d,qN(cd(cJ,u,z,b))];return[0,ei([5,[0,e[2],a],i]),d,h,f]},kk);return qM(j,[0,fP],bm[2],bm[3],kl)}return cL}var
 fR=0}else
 var
 fR=cK;var
 fS=fR}else
 var
 fS=fQ;return fS}var
-hG=bv}else
+hE=bu}else
 var
-hG=b1;return hG}var
+hE=b1;return hE}var
 hA=0}var
-hD=hA}else
+hB=hA}else
 var
-hD=dR;var
-hE=hD}else
+hB=dR;var
+hC=hB}else
 var
-hE=hz;return hE;default:return 0}case
+hC=hz;return hC;default:return 0}case
 3:var
-av=a[7],bw=a[6],bx=a[5],aw=a[4],dW=a[3],aS=a[2],aT=a[1],aU=w[2];switch(aU[0]){case
+au=b[7],bv=b[6],bx=b[5],ay=b[4],dV=b[3],aT=b[2],aU=b[1],aV=w[2];switch(aV[0]){case
 0:var
-hQ=aU[3],hR=iy(kI(k_(aT,aS,dW,aw,bx,bw,av)[1])),mH=f(hQ),dX=em(f(aT),hR,hR,0,mH,hQ);if(dX){var
-hT=dX[1];if(hT[2])return 0;var
-hU=rt(aT,aS,aw,bx,bw,av);if(hU){var
-mI=hT[1],ab=k_(aT,aS,dW,aw,bx,bw,av),mJ=ep(0,ES,f(aw),0,av),hW=iz(aU[2]),aV=aU[1],eQ=qe(ab[1]);if(eQ)var
-jq=ab[1][2],cq=l(function(a){return bH(j,a[2][1],a[2][2])},jq);else
+hP=aV[3],hQ=iE(kP(lf(aU,aT,dV,ay,bx,bv,au)[1])),mH=f(hP),dX=eq(f(aU),hQ,hQ,0,mH,hP);if(dX){var
+hR=dX[1];if(hR[2])return 0;var
+hT=rI(aU,aT,ay,bx,bv,au);if(hT){var
+mI=hR[1],ab=lf(aU,aT,dV,ay,bx,bv,au),mJ=et(0,Fd,f(ay),0,au),hU=iF(aV[2]),aW=aV[1],eQ=qt(ab[1]);if(eQ)var
+jq=ab[1][2],cq=k(function(a){return bI(j,a[2][1],a[2][2])},jq);else
 var
 cq=eQ;if(cq)var
-jr=ab[2],cr=l(function(a){return bH(j,a[1],a[2])},jr);else
+jr=ab[2],cr=k(function(a){return bI(j,a[1],a[2])},jr);else
 var
 cr=cq;if(cr){var
-B=ab[1],ba=f(B[1]),bC=ab[3],cj=f(B[2]),ey=O(cj,f(gc(e(aK,B[3])))),i5=B[3],ez=qa(h4(B),i5,cj),H=kG(ba,ez,B[4],ey),i6=kE(ez,B[4],ey),i7=B[3],eA=g(kD(h4(B),i7,cj),i6),eB=f(kI(B)),eC=kH(B[2]),eD=e(function(a){return a[4]},H),i8=g(eA,du(function(b,a){if(typeof
+B=ab[1],ba=f(B[1]),bC=ab[3],cf=f(B[2]),ey=P(cf,f(gi(d(aH,B[3])))),i5=B[3],ez=qp(h_(B),i5,cf),H=kN(ba,ez,B[4],ey),i6=kL(ez,B[4],ey),i7=B[3],eA=g(kK(h_(B),i7,cf),i6),eB=f(kP(B)),eC=kO(B[2]),eD=d(function(a){return a[4]},H),i8=g(eA,dA(function(b,a){if(typeof
 a!=="number"&&16===a[0]){var
-c=ed(H);return pR(eC,e(function(a){return a[3]},H),c,eD)}return p7(H,b,a)},0,d,eB,bC)),i9=g(bI(ed(H)),i8),eE=g(bI(e6(H)),i9),eF=dd(eE),eG=dc(eF),ay=cS(eG),i_=function(c,a){if(typeof
-a!=="number"&&16===a[0]){var
-f=B[4];if(l(function(a){return 0===a[0]?0:1},f)){var
-g=a[2],h=a[1],i=[0,L(aV,b)],j=ed(H);return pS(aV,ay,ba,ba,xU,0,eC,d,e(function(a){return a[3]},H),j,eD,i,h,g)}return xV}return p8(aV,ay,H,0,d,c,a)},eH=m(f(ab[2]),ba);if(eH)var
-i$=B[4],ck=l(function(a){return 0===a[0]?m(f(a[1]),ba):1},i$);else
+c=eg(H);return p6(eC,d(function(a){return a[3]},H),c,eD)}return qk(H,b,a)},0,e,eB,bC)),i9=g(bK(eg(H)),i8),eE=g(bK(fa(H)),i9),eF=dm(eE),eG=dl(eF),aA=cT(eG),i_=function(c,b){if(typeof
+b!=="number"&&16===b[0]){var
+f=B[4];if(k(function(a){return 0===a[0]?0:1},f)){var
+g=b[2],h=b[1],i=[0,J(aW,a)],j=eg(H);return p7(aW,aA,ba,ba,ye,0,eC,e,d(function(a){return a[3]},H),j,eD,i,h,g)}return yf}return ql(aW,aA,H,0,e,c,b)},eH=m(f(ab[2]),ba);if(eH)var
+i$=B[4],ck=k(function(a){return 0===a[0]?m(f(a[1]),ba):1},i$);else
 var
 ck=eH;var
-eI=ck?l(function(a){var
-b=n(d);return a2(q(h(ay,a),eG,b),a)},eE):ck,eJ=eI?ag(p9,bC):eI;if(eJ){var
-eK=J(ab[4]);if(eK)var
+eI=ck?k(function(a){var
+b=n(e);return a3(q(h(aA,a),eG,b),a)},eE):ck,eJ=eI?ag(qm,bC):eI;if(eJ){var
+eK=L(ab[4]);if(eK)var
 bD=eK;else
 var
-jp=B[4],bD=l(function(a){return 0===a[0]?0:1},jp)}else
+jp=B[4],bD=k(function(a){return 0===a[0]?0:1},jp)}else
 var
 bD=eJ;if(bD){var
-ja=kI(B),cl=ad(e(function(a){return au(aV,a)},ja));if(cl){var
-jb=0,jc=y(function(a){return f6(jb,d,a)},bC),cm=ad(e(function(a){return hM(aV,a)},jc));if(cm){var
-jd=ab[2],cn=ad(e(function(a){return au(aV,[0,a,d])},jd));if(cn){var
-co=ad(du(i_,0,d,eB,bC));if(co){var
+ja=kP(B),cl=ad(d(function(a){return av(aW,a)},ja));if(cl){var
+jb=0,jc=y(function(a){return ga(jb,e,a)},bC),cm=ad(d(function(a){return hS(aW,a)},jc));if(cm){var
+jd=ab[2],cn=ad(d(function(a){return av(aW,[0,a,e])},jd));if(cn){var
+co=ad(dA(i_,0,e,eB,bC));if(co){var
 eL=co[1];if(ab[4])var
-je=hW[2],jf=hW[1],jg=ed(H),cp=jY(mJ,eL,[8,h(aB(ay),jg),jf,je]);else
+je=hU[2],jf=hU[1],jg=eg(H),cp=j5(mJ,eL,[8,h(aC(aA),jg),jf,je]);else
 var
 cp=eL;var
-jh=jO(cp),ji=cn[1],jj=function(a){return 0},jk=g(cl[1],cm[1]),jl=e(ay,eA),jm=ed(H),jn=h(aB(ay),jm),jo=e6(H);return fi(jN(aV,eF,h(aB(ay),jo),jn,jl,jk,cp,jj),ji,jh,mI)}var
+jh=jV(cp),ji=cn[1],jj=function(a){return 0},jk=g(cl[1],cm[1]),jl=d(aA,eA),jm=eg(H),jn=h(aC(aA),jm),jo=fa(H);return fm(jU(aW,eF,h(aC(aA),jo),jn,jl,jk,cp,jj),ji,jh,mI)}var
 eM=co}else
 var
 eM=cn;var
@@ -9041,348 +9194,348 @@ eO=cl;var
 eP=eO}else
 var
 eP=bD;return eP}return cr}var
-hX=hU}else
+hV=hT}else
 var
-hX=dX;return hX;case
+hV=dX;return hV;case
 1:var
-ac=aU[4],hY=aU[3],b4=aU[2],A=k_(aT,aS,dW,aw,bx,bw,av),mK=e(k,hY),hZ=bu(e(aK,aS),mK);if(hZ[2])return 0;var
-E=hZ[1],h0=gs(e(aK,aS),hY),h1=h0?rt(aT,aS,aw,bx,bw,av):h0,h2=h1?qe(A[1]):h1;if(h2)var
-mL=A[2],dY=l(function(a){return bH(j,a[1],a[2])},mL);else
+ac=aV[4],hW=aV[3],b4=aV[2],A=lf(aU,aT,dV,ay,bx,bv,au),mK=d(l,hW),hX=bw(d(aH,aT),mK);if(hX[2])return 0;var
+E=hX[1],hZ=gy(d(aH,aT),hW),h0=hZ?rI(aU,aT,ay,bx,bv,au):hZ,h2=h0?qt(A[1]):h0;if(h2)var
+mL=A[2],dY=k(function(a){return bI(j,a[1],a[2])},mL);else
 var
 dY=h2;if(dY){if(typeof
 ac!=="number")switch(ac[0]){case
 2:var
-d3=e(k,ac[1]),d5=e(k,b4),aC=A[1],bG=h5(aC),jU=qh(aC),fk=e(function(a){return a[3]},jU),fl=function(a){var
-b=qi(aC,E);function
-c(c){return ee(a,b,c)}return e(function(a){return e(c,a)},fk)},fm=cd(j,e(aK,aC[2]),E),fn=fm?cd(j,A[2],d5):fm,fo=fn?cd(j,A[2],d3):fn,fp=fo?m(f(d5),bG):fo,fq=fp?m(f(d3),bG):fp,fr=fq?qj(aC,aC[4]):fq,fs=fr?m(f(aC[4]),bG):fr,ft=fs?l(function(a){return l(kK,a)},fk):fs;if(ft){var
-jV=fl(d3);return kA(j,bG,fl(d5),jV)}return ft;case
+d2=d(l,ac[1]),d3=d(l,b4),aB=A[1],bG=h$(aB),jQ=qw(aB),fj=d(function(a){return a[3]},jQ),fk=function(a){var
+b=qx(aB,E);function
+c(c){return eh(a,b,c)}return d(function(a){return d(c,a)},fj)},fl=cg(j,d(aH,aB[2]),E),fn=fl?cg(j,A[2],d3):fl,fo=fn?cg(j,A[2],d2):fn,fp=fo?m(f(d3),bG):fo,fq=fp?m(f(d2),bG):fp,fr=fq?qy(aB,aB[4]):fq,fs=fr?m(f(aB[4]),bG):fr,ft=fs?k(function(a){return k(kR,a)},fj):fs;if(ft){var
+jR=fk(d2);return kH(j,bG,fk(d3),jR)}return ft;case
 3:var
-d6=c5(ac[2]);if(d6){var
-a9=d6[1],d7=c5(ac[3]);if(d7){var
-bA=d7[1],mN=ep(0,EU,f(aw),0,av),ib=m(ac[1],mN);if(ib){var
-mO=ac[5],mP=ac[4],mQ=iA($(d,f(aT)),a9,bA,mP,mO),bB=e(k,b4),aG=A[1],gg=kO(0,a9,bA),gj=A[4],gk=gj?cd(j,e(aK,aG[2]),E):gj,gl=gk?cd(j,A[2],bB):gk;if(gl)var
-kw=e(bc,a9),cV=cd(j,A[2],kw);else
+d5=da(ac[2]);if(d5){var
+a9=d5[1],d6=da(ac[3]);if(d6){var
+bA=d6[1],mN=et(0,Ff,f(ay),0,au),h6=m(ac[1],mN);if(h6){var
+mO=ac[5],mP=ac[4],mQ=iG(X(e,f(aU)),a9,bA,mP,mO),bB=d(l,b4),aE=A[1],gd=kV(0,a9,bA),gf=A[4],gh=gf?cg(j,d(aH,aE[2]),E):gf,gj=gh?cg(j,A[2],bB):gh;if(gj)var
+kv=d(bc,a9),cU=cg(j,A[2],kv);else
 var
-cV=gl;if(cV)var
-kx=e(bc,bA),cW=cd(j,A[2],kx);else
+cU=gj;if(cU)var
+kw=d(bc,bA),cW=cg(j,A[2],kw);else
 var
-cW=cV;var
-gm=cW?h8(a9,bA):cW,gq=gm?e8(j,a9,bA,bB):gm,gu=gq?e7(g(E,bB)):gq;if(gu)var
-ky=aG[3],cX=l(function(a){return gi(a[2])},ky);else
+cW=cU;var
+gk=cW?ic(a9,bA):cW,gl=gk?fc(j,a9,bA,bB):gk,gm=gl?fb(g(E,bB)):gl;if(gm)var
+kx=aE[3],cY=k(function(a){return go(a[2])},kx);else
 var
-cX=gu;if(cX){var
-cZ=kW(aG[4]);if(cZ){var
-bO=cZ[1],gv=l(gi,bO);if(gv)var
-kz=1,c0=qA(function(a){return i(j,kz,a)},aG,E,bB,bO);else
+cY=gm;if(cY){var
+cZ=k3(aE[4]);if(cZ){var
+bN=cZ[1],gp=k(go,bN);if(gp)var
+ky=1,c0=qP(function(a){return i(j,ky,a)},aE,E,bB,bN);else
 var
-c0=gv;if(c0)var
-kB=f(a9),c2=qA(function(a){return kP(j,kB,a)},aG,E,gg,bO);else
+c0=gp;if(c0)var
+kA=f(a9),c1=qP(function(a){return kW(j,kA,a)},aE,E,gd,bN);else
 var
-c2=c0;if(c2)return h7(j,e(function(a){var
-b=a4(gh(aG,E,bB),a);return[3,a4(gh(aG,E,gg),a),b]},bO),mQ);var
-gw=c2}else
+c1=c0;if(c1)return ib(j,d(function(a){var
+b=a6(gn(aE,E,bB),a);return[3,a6(gn(aE,E,gd),a),b]},bN),mQ);var
+gq=c1}else
 var
-gw=cZ;var
-gx=gw}else
+gq=cZ;var
+gr=gq}else
 var
-gx=cX;return gx}var
-ic=ib}else
+gr=cY;return gr}var
+h7=h6}else
 var
-ic=d7;var
-ig=ic}else
+h7=d6;var
+h8=h7}else
 var
-ig=d6;return ig}var
-dZ=lp(0,ET,f(aw),0,av,ac);if(dZ){var
-by=dZ[1],aX=e(k,b4),K=A[1],eS=h5(K),bb=qh(K),jy=qf(K),jz=K[4],jA=kE(qg(K),jz,jy),jB=f(K[2]),jC=K[3],eR=g(kD(h4(K),jC,jB),jA),bd=qi(K,E),eT=cd(j,e(aK,K[2]),E),eU=eT?cd(j,A[2],aX):eT,eV=eU?m(f(aX),eS):eU,eW=eV?qj(K,K[4]):eV,eX=eW?l(kK,g(y(xZ,bb),eR)):eW;if(eX)var
-jD=A[3],js=e(function(a){var
-b=a[1];return[0,e(function(a){return ee(aX,bd,a)},b)]},bb),jt=y(function(c){var
+h8=d5;return h8}var
+dZ=lw(0,Fe,f(ay),0,au,ac);if(dZ){var
+by=dZ[1],aX=d(l,b4),K=A[1],eS=h$(K),bb=qw(K),jy=qu(K),jz=K[4],jA=kL(qv(K),jz,jy),jB=f(K[2]),jC=K[3],eR=g(kK(h_(K),jC,jB),jA),bd=qx(K,E),eT=cg(j,d(aH,K[2]),E),eU=eT?cg(j,A[2],aX):eT,eV=eU?m(f(aX),eS):eU,eW=eV?qy(K,K[4]):eV,eX=eW?k(kR,g(y(yj,bb),eR)):eW;if(eX)var
+jD=A[3],js=d(function(a){var
+b=a[1];return[0,d(function(a){return eh(aX,bd,a)},b)]},bb),jt=y(function(c){var
 a=c[1];switch(a[0]){case
 7:var
-b=ee(aX,bd,a[2]);return[0,[4,b,b],0];case
-9:return[0,ee(aX,bd,a[1]),0];default:return 0}},eR),ju=function(a){return a},jv=0,jw=e(function(a){return 0},bb),jx=e(function(b){var
+b=eh(aX,bd,a[2]);return[0,[4,b,b],0];case
+9:return[0,eh(aX,bd,a[1]),0];default:return 0}},eR),ju=function(a){return a},jv=0,jw=d(function(a){return 0},bb),jx=d(function(b){var
 a=b[4];if(typeof
-a!=="number"&&0===a[0])return[0,ee(aX,bd,a[1])];return 0},bb),d0=jZ(j,x0,eS,[0,e(function(a){var
-b=a[3];return e(function(a){return ee(aX,bd,a)},b)},bb),jx,jw,jv,ju,jt,js],jD,by);else
+a!=="number"&&0===a[0])return[0,eh(aX,bd,a[1])];return 0},bb),d0=j6(j,yk,eS,[0,d(function(a){var
+b=a[3];return d(function(a){return eh(aX,bd,a)},b)},bb),jx,jw,jv,ju,jt,js],jD,by);else
 var
 d0=eX;if(d0)var
 h3=d0;else{if(typeof
 by!=="number"&&0===by[0]){var
 b5=by[2];if(b5){if(b5[2])return 0;var
-d2=b5[1],mM=by[1],bz=e(k,b4),aF=A[1],bJ=f(aF[1]),fW=cd(j,e(aK,aF[2]),E),fX=fW?cd(j,A[2],bz):fW,fY=fX?m(f(bz),bJ):fX,f1=fY?dz(g(E,bz)):fY;if(f1)var
-kn=aF[3],cM=l(function(a){return gi(a[2])},kn);else
+d1=b5[1],mM=by[1],bz=d(l,b4),aD=A[1],bH=f(aD[1]),fV=cg(j,d(aH,aD[2]),E),fW=fV?cg(j,A[2],bz):fV,fX=fW?m(f(bz),bH):fW,fY=fX?dF(g(E,bz)):fX;if(fY)var
+km=aD[3],cM=k(function(a){return go(a[2])},km);else
 var
-cM=f1;if(cM){var
-cN=d4(j,yz,mM,A[3]);if(cN){var
-bL=cN[1][1];if(typeof
-bL!=="number"&&16===bL[0]){var
-f4=bL[2],f5=bL[1],cO=kW(aF[4]);if(cO){var
-bN=cO[1],cP=h$(aD(c1,f4));if(cP){var
-ko=cP[1],f7=i(j,1,f4),f8=f7?i(j,0,f5):f7;if(f8)var
-kp=f(bN),cT=m(f(d2),kp);else
+cM=fY;if(cM){var
+cN=d7(j,yV,mM,A[3]);if(cN){var
+bJ=cN[1][1];if(typeof
+bJ!=="number"&&16===bJ[0]){var
+f2=bJ[2],f3=bJ[1],cO=k3(aD[4]);if(cO){var
+bL=cO[1],cP=ig(aF(c5,f2));if(cP){var
+kn=cP[1],f4=i(j,1,f2),f7=f4?i(j,0,f3):f4;if(f7)var
+ko=f(bL),cQ=m(f(d1),ko);else
 var
-cT=f8;var
-f9=cT?l(gi,bN):cT;if(f9){var
-kq=aF[2],kr=gh(aF,e(function(a){return eg(a[2])},kq),bz),f$=h_(d2,e(function(a){return a4(kr,a)},bN),f5),gb=dz(f$);if(gb){var
-kt=N(bz,aA(0,bJ)),ku=gh(aF,E,e(function(a){var
-b=cC(a[2],ko);return[2,a[1],b]},kt)),kv=N(N(e(function(a){return a4(ku,a)},bN),f$),d2);return kU(j,bJ,bJ,e9(function(a){return[4,[0,a[2],b],[3,a[1][1],a[1][2]]]},kv))}var
-gd=gb}else
+cQ=f7;var
+f8=cQ?k(go,bL):cQ;if(f8){var
+kq=aD[2],kr=gn(aD,d(function(a){return ej(a[2])},kq),bz),f9=ie(d1,d(function(a){return a6(kr,a)},bL),f3),f_=dF(f9);if(f_){var
+ks=M(bz,ax(0,bH)),kt=gn(aD,E,d(function(a){var
+b=cD(a[2],kn);return[2,a[1],b]},ks)),ku=M(M(d(function(a){return a6(kt,a)},bL),f9),d1);return k1(j,bH,bH,fd(function(b){return[4,[0,b[2],a],[3,b[1][1],b[1][2]]]},ku))}var
+f$=f_}else
 var
-gd=f9;var
-ge=gd}else
+f$=f8;var
+gb=f$}else
 var
-ge=cP;var
-gf=ge}else
+gb=cP;var
+gc=gb}else
 var
-gf=cO;return gf}var
-f2=0}else
+gc=cO;return gc}var
+fZ=0}else
 var
-f2=cN;var
-f3=f2}else
+fZ=cN;var
+f1=fZ}else
 var
-f3=cM;return f3}return b5}var
+f1=cM;return f1}return b5}var
 h3=0}var
-h6=h3}else
+h4=h3}else
 var
-h6=dZ;var
-ia=h6}else
+h4=dZ;var
+h5=h4}else
 var
-ia=dY;return ia;default:return 0}case
+h5=dY;return h5;default:return 0}case
 4:var
-aY=a[3],a_=a[2],b6=a[1],aZ=w[2];switch(aZ[0]){case
+aY=b[3],a_=b[2],b6=b[1],aZ=w[2];switch(aZ[0]){case
 0:var
-mR=aZ[3],mS=aZ[2],mT=aZ[1],hb=dG(k(b6));if(hb){var
-dE=q$(aY);if(dE){var
-hc=dE[1],bo=hc[2],hd=k(bo),he=k(hc[1]),gB=i(j,1,k(a_)),gC=gB?i(j,1,[3,hd,[0,b,b]]):gB,gD=gC?i(j,1,he):gC,hf=gD?i(j,0,[3,[5,[0,b,b],hd],he]):gD,hg=hf?l(function(a){var
-b=q7(0,0,EQ,a);if(b)var
+mR=aZ[3],mS=aZ[2],mT=aZ[1],hb=dJ(l(b6));if(hb){var
+dD=ro(aY);if(dD){var
+hc=dD[1],bo=hc[2],hd=l(bo),he=l(hc[1]),gB=i(j,1,l(a_)),gC=gB?i(j,1,[3,hd,[0,a,a]]):gB,gD=gC?i(j,1,he):gC,hf=gD?i(j,0,[3,[5,[0,a,a],hd],he]):gD,hg=hf?k(function(a){var
+b=rk(0,0,Fb,a);if(b)var
 c=b;else{var
-d=c4(a);if(d)return aM(0,0,a);var
-c=d}return c},aY):hf,hh=hg?l(function(c){if(1===c[1]){var
-a=c[4];if(typeof
-a!=="number"&&0===a[0])return i(j,0,[3,[0,d,b],k(a[1])]);return 1}return 1},aY):hg;if(hh){var
-dp=aW(function(a){return J(ra(a))},aY);if(dp){var
-md=[0,c(2,b),b],bR=i(j,0,[3,k(bo),md]);if(bR)var
-dF=bR;else
+d=c_(a);if(d)return aN(0,0,a);var
+c=d}return c},aY):hf,hh=hg?k(function(c){if(1===c[1]){var
+b=c[4];if(typeof
+b!=="number"&&0===b[0])return i(j,0,[3,[0,e,a],l(b[1])]);return 1}return 1},aY):hg;if(hh){var
+dj=aP(function(a){return L(rp(a))},aY);if(dj){var
+md=[0,c(2,a),a],bR=i(j,0,[3,l(bo),md]);if(bR)var
+dE=bR;else
 var
-mg=k(bo),dF=i(j,0,[3,[0,c(2,b),b],mg]);if(dF){var
-ma=y(function(a){if(c4(a))return EM;var
-b=il(0,EN,0,a);return y(function(b){var
-c=fZ(j,EO,b);return $(J(ra(a)),c)},b)},aY),mb=function(f){var
-a=gt(ma,f[1]);if(a){var
-c=a[1],e=f[2];switch(e[0]){case
-0:return[0,[0,c,[0,e[1]]],0];case
-2:return[0,[0,c,[1,EP,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},mc=e(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,y(mb,a[1]),d,c,b]},mR),me=[0,dp[1],dp[2]],mf=re(bR,a_,bo);return ls(0,rd(bR,b6,a_,bo),0,mf,0,me,mT,mS,mc)}return dF}var
+mg=l(bo),dE=i(j,0,[3,[0,c(2,a),a],mg]);if(dE){var
+ma=y(function(a){if(c_(a))return E9;var
+b=is(0,E_,0,a);return y(function(b){var
+c=f5(j,E$,b);return X(L(rp(a)),c)},b)},aY),mb=function(f){var
+b=gz(ma,f[1]);if(b){var
+c=b[1],d=f[2];switch(d[0]){case
+0:return[0,[0,c,[0,d[1]]],0];case
+2:return[0,[0,c,[1,Fa,[0,[0,a,[0,e,[0,e,0]]],[0,[0,e,[0,a,[0,e,0]]],[0,[0,e,[0,e,[0,a,0]]],0]]],e]],0];default:return[0,[0,c,d],0]}}return b},mc=d(function(a){var
+b=a[4],c=a[3],d=a[2];return[0,y(mb,a[1]),d,c,b]},mR),me=[0,dj[1],dj[2]],mf=rt(bR,a_,bo);return lz(0,rs(bR,b6,a_,bo),0,mf,0,me,mT,mS,mc)}return dE}var
 hi=1}else
 var
 hi=hh;var
 hj=hi}else
 var
-hj=dE;var
+hj=dD;var
 hk=hj}else
 var
 hk=hb;return hk;case
 1:var
-mU=aZ[4],mV=aZ[3],mW=aZ[2],hl=dG(k(b6));if(hl){var
-dH=q$(aY);if(dH){var
-bq=dH[1][2],mh=[0,c(2,b),b],bS=i(j,0,[3,k(bq),mh]),hm=i(j,1,k(a_)),hn=hm?i(j,1,[3,k(bq),[0,b,b]]):hm;if(hn)if(bS)var
+mU=aZ[4],mV=aZ[3],mW=aZ[2],hl=dJ(l(b6));if(hl){var
+dG=ro(aY);if(dG){var
+bp=dG[1][2],mh=[0,c(2,a),a],bS=i(j,0,[3,l(bp),mh]),hm=i(j,1,l(a_)),hn=hm?i(j,1,[3,l(bp),[0,a,a]]):hm;if(hn)if(bS)var
 bT=bS;else
 var
-mj=k(bq),bT=i(j,0,[3,[0,c(2,b),b],mj]);else
+mj=l(bp),bT=i(j,0,[3,[0,c(2,a),a],mj]);else
 var
 bT=hn;if(bT){var
-mi=re(bS,a_,bq);return lt(0,rd(bS,b6,a_,bq),0,mi,0,aY,mW,mV,mU)}var
+mi=rt(bS,a_,bp);return lA(0,rs(bS,b6,a_,bp),0,mi,0,aY,mW,mV,mU)}var
 ho=bT}else
 var
-ho=dH;var
+ho=dG;var
 hp=ho}else
 var
 hp=hl;return hp;default:return 0}case
 5:var
-d8=a[4],ih=a[1],d9=w[2];if(0===d9[0]){var
-ij=d9[3],C=ik(ih,[0,a[2],a[3]],0,d8),mX=f(ij),d_=lk(lq(C),mX,ij);if(d_){var
-im=d_[1];if(im[2])return 0;var
-io=ix(ih,0,d8,C),ip=io?J(ag(c4,d8)):io;if(ip){var
-iq=oF(j,C);if(iq){var
-mY=im[1],iu=e(is,C[1]),V=it(C[1]),iB=k(a[5]),ax=d9[1],c8=hB(V,iu,C[1]),ah=jP(V,iu,C[1],0),kT=f(C[3]),kV=O(f(c8),kT),bP=[0,f(c8),kV],kX=jR(ah,V,bP,C[3]),kY=g(e(di,ah),kX),gF=g(bI(fJ(ah)),kY),gG=dd(gF),gH=dc(gG),a6=cS(gH),gI=C[2];if(0===gI[0]){var
-gJ=l(function(a){var
-b=n(d);return a2(q(h(a6,a),gH,b),a)},gF),gK=gJ?i(j,1,iB):gJ;if(gK){var
-kZ=C[3],k0=y(function(a){return d1(V,a)},kZ),k1=C[3],k2=g(c8,g(e(function(a){return b9(V,a)},k1),k0)),c9=ad(e(function(a){return au(ax,a)},k2));if(c9){var
-k3=bi(gI[1],V),c_=ad(e(function(a){return au(ax,a)},k3));if(c_){var
-c$=df(ax,V,[5,iB,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(c$){var
-da=C[3],k4=c_[1],k5=c9[1],k6=c$[1],kF=aA(0,f(da)),kJ=e(function(k){var
-l=F(da,k);if(l){var
-a=l[1],u=aq(k,da),v=f(y(function(a){return d1(V,a)},u)),w=O(bP[2],v),j=[0,O(bP[1],k),w],r=fJ(ah),g=h(aB(a6),r),c=[1,[8,[1,[1,j[1]]]]],d=hC(ah,V,j,a),n=d?[0,[3,e(a6,[0,d[1],d[2]])]]:d,m=0;if(typeof
-a!=="number")switch(a[0]){case
+d8=b[4],h9=b[1],d9=w[2];if(0===d9[0]){var
+ia=d9[3],C=ir(h9,[0,b[2],b[3]],0,d8),mX=f(ia),d_=lr(lx(C),mX,ia);if(d_){var
+ih=d_[1];if(ih[2])return 0;var
+ii=iD(h9,0,d8,C),ij=ii?L(ag(c_,d8)):ii;if(ij){var
+im=oU(j,C);if(im){var
+mY=ih[1],io=d(iy,C[1]),V=iz(C[1]),iq=l(b[5]),az=d9[1],c7=hH(V,io,C[1]),ah=jW(V,io,C[1],0),kF=f(C[3]),kG=P(f(c7),kF),bP=[0,f(c7),kG],kI=jY(ah,V,bP,C[3]),kJ=g(d(dr,ah),kI),gF=g(bK(fO(ah)),kJ),gG=dm(gF),gH=dl(gG),a4=cT(gH),gI=C[2];if(0===gI[0]){var
+gJ=k(function(a){var
+b=n(e);return a3(q(h(a4,a),gH,b),a)},gF),gK=gJ?i(j,1,iq):gJ;if(gK){var
+kM=C[3],kQ=y(function(a){return d4(V,a)},kM),kU=C[3],k0=g(c7,g(d(function(a){return ca(V,a)},kU),kQ)),c8=ad(d(function(a){return av(az,a)},k0));if(c8){var
+k2=bi(gI[1],V),c9=ad(d(function(a){return av(az,a)},k2));if(c9){var
+c$=dp(az,V,[5,iq,[0,c(2,c(2,c(2,c(2,a)))),a]]);if(c$){var
+db=C[3],k4=c9[1],k5=c8[1],k6=c$[1],kC=ax(0,f(db)),kD=d(function(k){var
+l=F(db,k);if(l){var
+b=l[1],u=ap(k,db),v=f(y(function(a){return d4(V,a)},u)),w=P(bP[2],v),j=[0,P(bP[1],k),w],r=fO(ah),g=h(aC(a4),r),c=[1,[8,[1,[1,j[1]]]]],e=hI(ah,V,j,b),n=e?[0,[3,d(a4,[0,e[1],e[2]])]]:e,m=0;if(typeof
+b!=="number")switch(b[0]){case
 0:return[0,[0,g,c]];case
 1:return[0,[1,g,c]];case
 4:var
-o=i(ax,1,a[2]),s=o?n:o;return s;case
+o=i(az,1,b[2]),s=o?n:o;return s;case
 5:return[0,[2,g,c]];case
 8:var
-p=i(ax,1,[5,a[2],a[1]]);if(!p)return p;var
-q=[1,[2,b]];m=1;break;case
+p=i(az,1,[5,b[2],b[1]]);if(!p)return p;var
+q=[1,[2,a]];m=1;break;case
 9:var
 q=c;m=1;break;case
 2:case
 3:case
 6:case
 7:return n}if(m){var
-t=fU(ah,V,j,a);return x(function(a){return[0,h(aB(a6),a),q]},t)}return 0}return l},kF),kN=e(function(a){return h(a6,di(a))},ah),gE=e(function(a){return h(a6,a[2])},ah),k$=C[3],ld=bP[1],c7=function(aC,aB,aA){var
-k=aC,n=aB,g=aA;for(;;)switch(g[0]){case
+t=f0(ah,V,j,b);return x(function(a){return[0,h(aC(a4),a),q]},t)}return 0}return l},kC),kE=d(function(a){return h(a4,dr(a))},ah),gE=d(function(a){return h(a4,a[2])},ah),k7=C[3],k8=bP[1],c6=function(aC,aB,aA){var
+l=aC,n=aB,g=aA;for(;;)switch(g[0]){case
 0:var
-v=g[1],$=m(f(v),yL),aa=$?l(function(a){var
-d=D(U(c(2,c(2,c(2,b)))),a);return d?D(a,c(2,c(2,c(2,b)))):d},v):$;if(aa){var
-ab=qL(ax,k6,dj(0,n),v),j=g[2],w=cR(0,b7(ax,ab,e(_,k)),gG),aD=e(_,k),M=function(a){return qK(qJ(ax,ab,aD,w,a))};if(typeof
+v=g[1],$=m(f(v),y7),aa=$?k(function(b){var
+d=D(W(c(2,c(2,c(2,a)))),b);return d?D(b,c(2,c(2,c(2,a)))):d},v):$;if(aa){var
+ab=q0(az,k6,cX(0,n),v),j=g[2],w=cS(0,b_(az,ab,d(R,l)),gG),aD=d(R,l),M=function(a){return qZ(qY(az,ab,aD,w,a))};if(typeof
 j==="number")return 0===j?ag(function(b){var
-a=q(b,w,0);return a?D(a[1][2][2],d):a},gE):0;else{if(0===j[0]){var
-a=j[2],N=l(yJ,a);if(N){var
-r=q(j[1],kJ,0);if(r){var
+a=q(b,w,0);return a?D(a[1][2][2],e):a},gE):0;else{if(0===j[0]){var
+b=j[2],N=k(y5,b);if(N){var
+r=q(j[1],kD,0);if(r){var
 i=r[1];switch(i[0]){case
 0:var
-x=0;if(a)if(a[2])var
+x=0;if(b)if(b[2])var
 h=0;else{var
-A=a[1],B=i[1],ao=ie(B,A),ap=id(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],ap]],ao]],0]]];x=1}else{var
-C=a;x=1}if(x)var
+A=b[1],B=i[1],ao=il(B,A),ap=ik(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],ap]],ao]],0]]];x=1}else{var
+C=b;x=1}if(x)var
 h=C;break;case
 1:var
-y=0;if(a)if(a[2])var
+y=0;if(b)if(b[2])var
 h=0;else{var
-E=a[1],G=i[1],aq=id(E),ar=[1,[6,i[2],aq]],H=[0,[0,G,[0,[1,[4,ie(G,E),ar]],0]]];y=1}else{var
-H=a;y=1}if(y)var
+E=b[1],G=i[1],aq=ik(E),ar=[1,[6,i[2],aq]],H=[0,[0,G,[0,[1,[4,il(G,E),ar]],0]]];y=1}else{var
+H=b;y=1}if(y)var
 h=H;break;case
 2:var
-z=0;if(a){var
-o=a[2],an=0;if(o)if(o[2]){var
+z=0;if(b){var
+o=b[2],an=0;if(o)if(o[2]){var
 h=0;an=1}else
 var
-I=o[1],J=a[1],p=i[1],as=id(J),at=[1,[6,ie(p,I),as]],au=[1,[6,i[2],at]],av=id(I),K=[0,[0,p,[0,[1,[4,[1,[6,ie(p,J),av]],au]],0]]];else
+I=o[1],J=b[1],p=i[1],as=ik(J),at=[1,[6,il(p,I),as]],au=[1,[6,i[2],at]],av=ik(I),K=[0,[0,p,[0,[1,[4,[1,[6,il(p,J),av]],au]],0]]];else
 var
 K=o;if(!an){var
 L=K;z=1}}else{var
-L=a;z=1}if(z)var
-h=L;break;default:if(a)var
+L=b;z=1}if(z)var
+h=L;break;default:if(b)var
 h=0;else
 var
-aw=i[1],h=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},aw)]]}if(h){var
-P=h[1],ay=P[1],Q=l(function(a){return qK(q(a[2],w,0))},ay);if(Q)return l(M,P[2]);var
-R=Q}else
+aw=i[1],h=[0,[0,0,d(function(a){return[1,[5,[0,a]]]},aw)]]}if(h){var
+O=h[1],ax=O[1],Q=k(function(a){return qZ(q(a[2],w,0))},ax);if(Q)return k(M,O[2]);var
+S=Q}else
 var
-R=h;var
-S=R}else
-var
-S=r;var
+S=h;var
 T=S}else
 var
-T=N;return T}var
-V=j[2],W=j[1],s=F(k$,W);if(s){var
-X=s[1];if(typeof
-X!=="number"&&1===X[0]){var
+T=r;var
+U=T}else
+var
+U=N;return U}var
+V=j[2],X=j[1],s=F(k7,X);if(s){var
+Y=s[1];if(typeof
+Y!=="number"&&1===Y[0]){var
 t=F(gE,V);if(t){var
-u=F(kN,V);if(u){var
-az=O(ld,W);return M([1,[4,[1,[8,[0,u[1]]]],[1,[6,[1,[8,[1,[1,az]]]],[0,t[1]]]]]])}var
-Z=u}else
+u=F(kE,V);if(u){var
+ay=P(k8,X);return M([1,[4,[1,[8,[0,u[1]]]],[1,[6,[1,[8,[1,[1,ay]]]],[0,t[1]]]]]])}var
+_=u}else
 var
-Z=t;return Z}var
-Y=0}else
+_=t;return _}var
+Z=0}else
 var
-Y=s;return Y}}return aa;case
+Z=s;return Z}}return aa;case
 1:var
-ac=g[1],ad=qM(ac,n);if(ad){var
-ae=dk(ac,n),af=c7(k,ae[1],g[2]);if(af){var
+ac=g[1],ad=q1(ac,n);if(ad){var
+ae=ds(ac,n),af=c6(l,ae[1],g[2]);if(af){var
 n=ae[2],g=g[3];continue}var
 ah=af}else
 var
 ah=ad;return ah;default:var
-ai=g[1],aj=qM(ai,k);if(aj){var
-ak=dk(ai,k),al=c7(ak[1],n,g[2]);if(al){var
-k=ak[2],g=g[3];continue}var
+ai=g[1],aj=q1(ai,l);if(aj){var
+ak=ds(ai,l),al=c6(ak[1],n,g[2]);if(al){var
+l=ak[2],g=g[3];continue}var
 am=al}else
 var
-am=aj;return am}};return c7(k5,k4,mY)}var
+am=aj;return am}};return c6(k5,k4,mY)}var
 gL=c$}else
 var
-gL=c_;var
+gL=c9;var
 gM=gL}else
 var
-gM=c9;var
+gM=c8;var
 gN=gM}else
 var
 gN=gK;return gN}return 0}var
-iC=iq}else
+it=im}else
 var
-iC=ip;var
-iD=iC}else
+it=ij;var
+iu=it}else
 var
-iD=d_;return iD}return 0;case
+iu=d_;return iu}return 0;case
 6:var
-iE=a[1];if(iE){var
-iF=iE[1],d$=w[2];if(0===d$[0]){var
-ea=lj(EW,0,0,0,EV,d$[3]);if(ea){var
-iG=gr(iF);if(iG){var
-mZ=ea[1],iH=cf(iF)[2],b8=d$[1],c3=df(b8,d,iH);if(c3){var
-c6=df(b8,d,[5,[0,b,b],iH]);if(c6){var
-kC=c3[1][1],gy=I(cQ(b8),kC);if(gy)return qI(b8,c6[1][1],mZ);var
-gz=gy}else
+iv=b[1];if(iv){var
+iw=iv[1],d$=w[2];if(0===d$[0]){var
+ea=lq(Fh,0,0,0,Fg,d$[3]);if(ea){var
+iA=gx(iw);if(iA){var
+mZ=ea[1],iH=ci(iw)[2],b7=d$[1],c3=dp(b7,e,iH);if(c3){var
+c4=dp(b7,e,[5,[0,a,a],iH]);if(c4){var
+kB=c3[1][1],gs=I(cR(b7),kB);if(gs)return qX(b7,c4[1][1],mZ);var
+gw=gs}else
 var
-gz=c6;var
-gA=gz}else
+gw=c4;var
+gA=gw}else
 var
 gA=c3;return gA}var
-iI=iG}else
+iI=iA}else
 var
 iI=ea;return iI}return 0}var
 eb=w[2];if(0===eb[0]){var
-ec=lj(EY,0,0,0,EX,eb[3]);return ec?qI(eb[1],d,ec[1]):ec}return 0;default:var
-a$=a[1],iJ=w[2];if(2===iJ[0]){var
-iK=iJ[1],eh=lh(f(iK),iK);if(eh){var
-iL=eh[1];if(iL[2])return 0;var
-ej=iL[1],g5=ae(EJ,f(a$)),g6=g5?ae(f(a$),dV):g5,g7=g6?qd(e(as,a$)):g6,iM=g7?l(function(c){var
-a=cU(k(c[2][1]));if(a){var
-b=cU(k(c[2][2]));if(b)return J(bp(b[1],a[1]));var
+ec=lq(Fj,0,0,0,Fi,eb[3]);return ec?qX(eb[1],e,ec[1]):ec}return 0;default:var
+a$=b[1],iJ=w[2];if(2===iJ[0]){var
+iK=iJ[1],ed=lo(f(iK),iK);if(ed){var
+iL=ed[1];if(iL[2])return 0;var
+ee=iL[1],g5=ae(E6,f(a$)),g6=g5?ae(f(a$),dW):g5,g7=g6?qs(d(ao,a$)):g6,iM=g7?k(function(c){var
+a=cV(l(c[2][1]));if(a){var
+b=cV(l(c[2][2]));if(b)return L(bq(b[1],a[1]));var
 d=b}else
 var
 d=a;return d},a$):g7;if(iM)var
-m0=ir(Dw,ej),ek=rB(a[5],m0);else
+m0=ix(DT,ee),ef=rQ(b[5],m0);else
 var
-ek=iM;if(ek)var
-m1=ir(Dx,ej),en=rB(a[6],m1);else
+ef=iM;if(ef)var
+m1=ix(DU,ee),ek=rQ(b[6],m1);else
 var
-en=ek;if(en){var
-lV=e(function(a){return[0,d,0]},a$);return rA(a$,a[2],a[3],a[4],lV,ej)}var
-iN=en}else
+ek=ef;if(ek){var
+lV=d(function(a){return[0,e,0]},a$);return rP(a$,b[2],b[3],b[4],lV,ee)}var
+iN=ek}else
 var
-iN=eh;return iN}return 0}}return br}var
-aa=[bd,E1,tY(0)],rF=[bd,E2,tY(0)];function
-EZ(l,b){var
-f=[0,o(CU,aw(b[4])),0],g=[0,o(CW,ak([0,o(CV,aw(b[3])),f])),0],a=b[2];switch(a[0]){case
+iN=ed;return iN}return 0}}return br}var
+aa=[bd,Fm,uc(0)],rU=[bd,Fn,uc(0)];function
+Fk(l,b){var
+f=[0,o(Df,ay(b[4])),0],g=[0,o(Dh,al([0,o(Dg,ay(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=V(CQ,qT(a[1],a[2],a[3]));break;case
+c=U(Db,q8(a[1],a[2],a[3]));break;case
 1:var
-c=V(CR,qU(a[1],a[2],a[3],a[4]));break;default:var
-c=V(CS,K(e(CL,a[1])))}var
-h=[0,o(CX,c),g],i=1===b[2][0]?C3:CY,j=[0,o(CZ,aw(i)),h],k=[0,o(C0,Bl(b[1])),j],d=aJ(ml(E0,ig(ak([0,o(C2,aw(C1)),k]),CT)),l);return d?ER(b):d}function
-al(a){if(0===a[0])return a[1];throw aa}function
+c=U(Dc,q9(a[1],a[2],a[3],a[4]));break;default:var
+c=U(Dd,K(d(C8,a[1])))}var
+h=[0,o(Di,c),g],i=1===b[2][0]?Do:Dj,j=[0,o(Dk,ay(i)),h],k=[0,o(Dl,BH(b[1])),j],e=aM(ms(Fl,im(al([0,o(Dn,ay(Dm)),k]),De)),l);return e?Fc(b):e}function
+am(a){if(0===a[0])return a[1];throw aa}function
 af(a){if(1===a[0])return a[1];throw aa}function
 ba(a){if(2===a[0])return a[1];throw aa}function
-gu(a){if(3===a[0])return a[1];throw aa}function
-bm(b,a){return mk(a,b)}function
-w(c,b){var
+gA(a){if(3===a[0])return a[1];throw aa}function
+bm(b,a){return mr(a,b)}function
+z(c,b){var
 a=bm(c,b);if(a)return a[1];throw aa}function
-cE(b,a){var
+cF(b,a){var
 c=a?[0,h(b,a[1])]:a;return c}function
-eq(a){switch(a[0]){case
+eu(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],E4]}throw aa}function
-gv(e,d){var
+2:return[0,a[1],Fp]}throw aa}function
+gB(e,d){var
 a=Z(e,af(d));if(a){var
 b=a[2];if(b){var
 c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw aa}function
-iB(i){var
-f=fv(i),d=[0,0],e=i5(f)-1|0;if(!(e<0)){var
+iH(i){var
+f=fz(i),d=[0,0],e=i$(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=lZ(f,c)-48|0;if(9<g>>>0)throw aa;switch(g){case
+a=d[1],g=l6(f,c)-48|0;if(9<g>>>0)throw aa;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -9404,48 +9557,48 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-gw(a){return mC(iB(a))}function
-fg(b){var
-a=gu(b);return 45===be(a,0)?U(gw(eA(a,1,aG(a)-1|0))):gw(a)}function
-rG(a){return eC(gw(gu(a)))}function
-dI(b){var
-a=gu(b);if(!(2<aG(a))&&!(64<=i4(a)))return jg(gw(a));throw aa}function
-c6(c){var
-a=gu(c);if(6<aG(a))throw aa;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(i4(a))}function
-rH(a){var
-b=97<=a?1:0,c=b?a<=tA?1:0:b;if(c)var
+gC(a){return mI(iH(a))}function
+fl(b){var
+a=gA(b);return 45===be(a,0)?W(gC(eF(a,1,aI(a)-1|0))):gC(a)}function
+rV(a){return eH(gC(gA(a)))}function
+db(b){var
+a=gA(b);if(!(2<aI(a))&&!(64<=i_(a)))return jl(gC(a));throw aa}function
+dc(c){var
+a=gA(c);if(6<aI(a))throw aa;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(i_(a))}function
+rW(a){var
+b=97<=a?1:0,c=b?a<=tQ?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-rI(y,b){var
-d=aG(b),a=[0,0];function
+rX(y,b){var
+d=aI(b),a=[0,0];function
 c(e){var
 c=a[1]<d?1:0,f=c?be(b,a[1])===e?1:0:c;return f}function
 l(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=be(b,a[1])&&!(57<be(b,a[1]))){a[1]++;continue}return eA(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=be(b,a[1])&&!(57<be(b,a[1]))){a[1]++;continue}return eF(b,c,a[1]-c|0)}}function
 m(b){a[1]++;var
 d=f(b+1|0);if(c(41)){a[1]++;return d}throw aa}function
 i(j){if(64<j)throw aa;if(c(45)){a[1]++;return[2,i(j+1|0)]}if(c(40))var
 e=m(j);else{var
-u=0;if((a[1]+5|0)<=d&&aJ(eA(b,a[1],5),E6)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&aM(eF(b,a[1],5),Fr)){a[1]=a[1]+4|0;var
 e=[5,m(j)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&rH(be(b,a[1]))){var
+v=0;if(a[1]<d&&rW(be(b,a[1]))){var
 n=a[1];for(;;){if(a[1]<d){var
-w=0;if(!rH(be(b,a[1]))&&95!==be(b,a[1])&&(!(48<=be(b,a[1]))||57<be(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-e=[1,h(y,eA(b,n,a[1]-n|0))];break}}else
+w=0;if(!rW(be(b,a[1]))&&95!==be(b,a[1])&&(!(48<=be(b,a[1]))||57<be(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+e=[1,h(y,eF(b,n,a[1]-n|0))];break}}else
 v=1;if(v){var
-g=l(0),o=c(46),q=o?(a[1]++,[0,l(0)]):o,r=aJ(g,E7);if(r)var
+g=l(0),o=c(46),q=o?(a[1]++,[0,l(0)]):o,r=aM(g,Fs);if(r)var
 s=r;else
 var
-t=1<aG(g)?1:0,s=t?48===be(g,0)?1:0:t;if(s)throw aa;if(q){var
-k=q[1],x=0;if(aJ(k,E8)||48===be(k,aG(k)-1|0))x=1;else
+t=1<aI(g)?1:0,s=t?48===be(g,0)?1:0:t;if(s)throw aa;if(q){var
+k=q[1],x=0;if(aM(k,Ft)||48===be(k,aI(k)-1|0))x=1;else
 var
-z=iB(k),e=[0,iB(g),z];if(x)throw aa}else
+z=iH(k),e=[0,iH(g),z];if(x)throw aa}else
 var
-e=[0,iB(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(p(f,E5)){if(!(2<aG(f))&&2<=i4(f)&&!(64<i4(f)))return[4,e,eC(gw(f))];throw aa}throw aa}return e}function
+e=[0,iH(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(p(f,Fq)){if(!(2<aI(f))&&2<=i_(f)&&!(64<i_(f)))return[4,e,eH(gC(f))];throw aa}throw aa}return e}function
 e(d){var
 b=i(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,i(d)];continue}if(c(47)){a[1]++;var
@@ -9455,55 +9608,55 @@ b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
 g=f(0);if(a[1]<d)throw aa;return g}function
-iC(a){return rI(function(a){return[0,a]},a)}function
-lv(a){var
-b=ba(a);return rI(function(a){return a},b)}function
-ab(a){return iC(ba(a))}function
-ch(a){if(2===a[0])return[0,iC(a[1])];var
-b=al(a),c=ab(w(b,E9));return[1,ab(w(b,E_)),c]}function
-ar(a){throw[0,rF,bo(ml(Fa,a),E$)]}function
-lw(c){var
-a=ba(c);if(p(a,Fb)){var
-b=p(a,Fc);if(b)throw aa;return b}return 1}function
-Fd(d){var
-b=al(d);function
-a(a){return gv(ch,w(b,a))}var
-c=ba(w(b,Fe));if(p(c,Ff)){if(p(c,Fg)){if(p(c,Fh))return ar([0,Fj,[0,c,Fi]]);var
-e=bm(b,Fk),f=cE(function(a){return gv(ch,a)},e),g=a(Fl);return[1,a(Fm),g,f]}var
-h=lw(w(b,Fn)),i=ch(w(b,Fo)),j=a(Fp),k=a(Fq);return[0,a(Fr),k,j,i,h]}return[2,a(Fs)]}function
-Ft(d){var
-a=al(d);if(a){var
-b=a[1];if(!p(b[1],Fu)){var
-c=b[2];if(2===c[0]&&!p(c[1],Fv))return 1}}return 0}function
-rJ(e){var
-b=al(e);function
-a(a){return Z(ch,af(w(b,a)))}var
-c=ba(w(b,Fw)),f=bm(b,Fx),d=cE(function(a){return Z(ch,af(a))},f);if(p(c,Fy)){if(p(c,Fz)){if(p(c,FA)){if(!p(c,FB)){var
-g=a(FE);return[1,a(FF),g,d]}}else
+iI(a){return rX(function(a){return[0,a]},a)}function
+lC(a){var
+b=ba(a);return rX(function(a){return a},b)}function
+ab(a){return iI(ba(a))}function
+ck(a){if(2===a[0])return[0,iI(a[1])];var
+b=am(a),c=ab(z(b,Fu));return[1,ab(z(b,Fv)),c]}function
+at(a){throw[0,rU,bo(ms(Fx,a),Fw)]}function
+lD(c){var
+a=ba(c);if(p(a,Fy)){var
+b=p(a,Fz);if(b)throw aa;return b}return 1}function
+FA(d){var
+b=am(d);function
+a(a){return gB(ck,z(b,a))}var
+c=ba(z(b,FB));if(p(c,FC)){if(p(c,FD)){if(p(c,FE))return at([0,FG,[0,c,FF]]);var
+e=bm(b,FH),f=cF(function(a){return gB(ck,a)},e),g=a(FI);return[1,a(FJ),g,f]}var
+h=lD(z(b,FK)),i=ck(z(b,FL)),j=a(FM),k=a(FN);return[0,a(FO),k,j,i,h]}return[2,a(FP)]}function
+FQ(d){var
+a=am(d);if(a){var
+b=a[1];if(!p(b[1],FR)){var
+c=b[2];if(2===c[0]&&!p(c[1],FS))return 1}}return 0}function
+rY(e){var
+b=am(e);function
+a(a){return Z(ck,af(z(b,a)))}var
+c=ba(z(b,FT)),f=bm(b,FU),d=cF(function(a){return Z(ck,af(a))},f);if(p(c,FV)){if(p(c,FW)){if(p(c,FX)){if(!p(c,FY)){var
+g=a(F1);return[1,a(F2),g,d]}}else
 if(!d){var
-h=lw(w(b,FG)),i=ch(w(b,FH)),j=a(FI),k=a(FJ);return[0,a(FK),k,j,i,h]}}else
-if(!d)return[2,a(FL)]}else
+h=lD(z(b,F3)),i=ck(z(b,F4)),j=a(F5),k=a(F6);return[0,a(F7),k,j,i,h]}}else
+if(!d)return[2,a(F8)]}else
 if(!d){var
-l=lw(w(b,FM)),m=ch(w(b,FN)),n=ch(w(b,FO)),o=a(FP),q=a(FQ),r=a(FR);return[3,a(FS),r,q,o,n,m,l]}return ar([0,FD,[0,c,FC]])}function
-FT(d){var
-a=al(d);if(a){var
-b=a[1];if(!p(b[1],FU)){var
-c=b[2];if(2===c[0]&&!p(c[1],FV))return 1}}return 0}function
-FW(d){var
-a=al(d);if(a){var
-b=a[1];if(!p(b[1],FX)){var
-c=b[2];if(2===c[0]&&!p(c[1],FY))return 1}}return 0}function
-rK(d){var
-a=al(d);if(a){var
-b=a[1];if(!p(b[1],FZ)){var
-c=b[2];if(2===c[0]&&!p(c[1],F0))return 1}}return 0}function
-dJ(c,d){var
+l=lD(z(b,F9)),m=ck(z(b,F_)),n=ck(z(b,F$)),o=a(Ga),q=a(Gb),r=a(Gc);return[3,a(Gd),r,q,o,n,m,l]}return at([0,F0,[0,c,FZ]])}function
+Ge(d){var
+a=am(d);if(a){var
+b=a[1];if(!p(b[1],Gf)){var
+c=b[2];if(2===c[0]&&!p(c[1],Gg))return 1}}return 0}function
+Gh(d){var
+a=am(d);if(a){var
+b=a[1];if(!p(b[1],Gi)){var
+c=b[2];if(2===c[0]&&!p(c[1],Gj))return 1}}return 0}function
+rZ(d){var
+a=am(d);if(a){var
+b=a[1];if(!p(b[1],Gk)){var
+c=b[2];if(2===c[0]&&!p(c[1],Gl))return 1}}return 0}function
+dL(c,d){var
 a=af(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 e=h(c,b[1]);return[0,h(c,a[1]),e]}}throw aa}function
-er(g,o){var
-h=g?g[1]:g,c=al(o),a=ba(w(c,F1)),j=t_(a,F2),f=0;if(0<=j)if(0<j)if(p(a,F3))if(p(a,F4))if(p(a,F5))if(p(a,F6))if(p(a,F7))if(p(a,F8))if(p(a,F9)){var
-k=p(a,F_);if(k)f=1;else
+ev(g,o){var
+h=g?g[1]:g,c=am(o),a=ba(z(c,Gm)),j=uo(a,Gn),f=0;if(0<=j)if(0<j)if(p(a,Go))if(p(a,Gp))if(p(a,Gq))if(p(a,Gr))if(p(a,Gs))if(p(a,Gt))if(p(a,Gu)){var
+k=p(a,Gv);if(k)f=1;else
 var
 b=k}else
 var
@@ -9523,7 +9676,7 @@ var
 b=13;else
 var
 b=2;else
-if(p(a,Gt))if(p(a,Gu))if(p(a,Gv))if(p(a,Gw))if(p(a,Gx))if(p(a,Gy))if(p(a,Gz))if(p(a,GA))f=1;else
+if(p(a,GQ))if(p(a,GR))if(p(a,GS))if(p(a,GT))if(p(a,GU))if(p(a,GV))if(p(a,GW))if(p(a,GX))f=1;else
 var
 b=1;else
 var
@@ -9541,12 +9694,12 @@ b=14;else
 f=1;else
 var
 b=12;var
-n=f?ar([0,Ga,[0,a,F$]]):b;function
-i(a){return w(c,Gb)}var
-d=ba(w(c,Gc)),l=p(d,Gd);if(l)if(p(d,Ge))if(p(d,Gf))if(p(d,Gg))var
-e=ar([0,Gi,[0,d,Gh]]);else
+n=f?at([0,Gx,[0,a,Gw]]):b;function
+i(a){return z(c,Gy)}var
+d=ba(z(c,Gz)),l=p(d,GA);if(l)if(p(d,GB))if(p(d,GC))if(p(d,GD))var
+e=at([0,GF,[0,d,GE]]);else
 var
-m=dJ(ab,i(0)),e=[2,m[1],m[2]];else
+m=dL(ab,i(0)),e=[2,m[1],m[2]];else
 var
 e=[0,ab(i(0))];else
 var
@@ -9554,117 +9707,117 @@ e=[1,ab(i(0))];else
 var
 e=l;function
 q(H){var
-a=al(H),b=0;switch(n){case
+a=am(H),b=0;switch(n){case
 6:if(a){var
-r=a[1];if(!p(r[1],Gk)){var
+r=a[1];if(!p(r[1],GH)){var
 s=r[2];if(1===s[0]){var
 c=s[1],m=0;if(c&&!c[2])if(a[2])m=1;else{var
 e=c[1];b=1;m=1}if(!m&&!a[2]){var
 t=c;b=2}}}}break;case
 10:if(a){var
-u=a[1];if(!p(u[1],Gl)){var
+u=a[1];if(!p(u[1],GI)){var
 v=u[2];if(1===v[0]){var
 f=v[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-w=g[1];if(!p(w[1],Gm)){var
+w=g[1];if(!p(w[1],GJ)){var
 x=w[2];if(1===x[0]){var
 i=x[1];if(i&&!i[2]&&!g[2]){var
 I=ab(i[1]);return[2,ab(f[1]),I]}}}}}}}}break;case
 12:if(a){var
-y=a[1];if(!p(y[1],Gn)){var
+y=a[1];if(!p(y[1],GK)){var
 z=y[2];if(1===z[0]){var
 j=z[1];if(j&&!j[2]){var
 k=a[2],A=j[1];if(k){var
-B=k[1];if(!p(B[1],Go)){var
+B=k[1];if(!p(B[1],GL)){var
 C=B[2];if(1===C[0]){var
 l=C[1];if(l&&!l[2]&&!k[2]&&h){var
 J=ab(l[1]);return[3,ab(A),J]}}}}else{var
 e=A;b=1}}}}}break;case
 16:if(a){var
-F=a[1];if(!p(F[1],Gq)){var
+F=a[1];if(!p(F[1],GN)){var
 G=F[2];if(1===G[0]&&!a[2]){var
 t=G[1];b=2}}}break;case
 14:case
 15:if(a){var
-D=a[1];if(!p(D[1],Gp)){var
+D=a[1];if(!p(D[1],GM)){var
 E=D[2];if(1===E[0]&&!a[2])return[1,Z(ab,E[1])]}}break;case
 2:case
 8:if(a){var
-o=a[1];if(!p(o[1],Gj)){var
+o=a[1];if(!p(o[1],GG)){var
 q=o[2];if(1===q[0]){var
 d=q[1];if(d&&!d[2]&&!a[2]){var
 e=d[1];b=1}}}}break}switch(b){case
 0:throw aa;case
 1:return[0,ab(e)];default:return[1,Z(ab,t)]}}var
-r=cE(q,bm(c,Gr));return[0,n,cE(c6,bm(c,Gs)),r,e]}function
-rL(c){var
-d=er(GD,c),e=d[1];if(!(9<=e))switch(e){case
+r=cF(q,bm(c,GO));return[0,n,cF(dc,bm(c,GP)),r,e]}function
+r0(c){var
+d=ev(G0,c),e=d[1];if(!(9<=e))switch(e){case
 2:case
 6:case
 8:return d}var
-a=er(GB,c),b=a[1];if(2!==b&&!(4<=b))return a;return ar(GC)}function
-rM(a){var
-b=er(GE,a);return 11===b[1]?b:rL(a)}function
-GF(a){var
-b=er(GG,a);return 12===b[1]?b:rM(a)}function
-GH(a){var
-b=er(GI,a),c=b[1];if(9<=c)switch(c-9|0){case
+a=ev(GY,c),b=a[1];if(2!==b&&!(4<=b))return a;return at(GZ)}function
+r1(a){var
+b=ev(G1,a);return 11===b[1]?b:r0(a)}function
+G2(a){var
+b=ev(G3,a);return 12===b[1]?b:r1(a)}function
+G4(a){var
+b=ev(G5,a),c=b[1];if(9<=c)switch(c-9|0){case
 2:case
 4:case
-7:break;default:return b}return rM(a)}function
-lx(c){var
-d=er(GJ,c),a=d[1];if(4<=a){var
+7:break;default:return b}return r1(a)}function
+lE(c){var
+d=ev(G6,c),a=d[1];if(4<=a){var
 b=0;if(6<=a)switch(a-6|0){case
 4:case
 5:case
 6:case
 7:case
 10:b=1;break}else
-b=1;if(b)return d}return rL(c)}function
-ly(b){var
-a=al(b[2]);if(p(b[1],GQ)){var
-c=dJ(ab,w(a,GR)),d=dJ(ab,w(a,GS)),e=d[2],f=d[1],g=ab(w(a,GT));return[1,c[1],c[2],g,f,e]}var
-h=Z(ab,af(w(a,GU)));return[0,Z(ab,af(w(a,GV))),h]}function
-GW(f){var
-a=al(f);function
-d(b){return ab(w(a,b))}function
-c(b){return gv(ab,w(a,b))}var
-b=ba(w(a,GX));if(p(b,GY)){if(!p(b,GZ)){var
-j=w(a,G5),e=dJ(function(a){return a},j),k=bm(a,G6),l=cE(function(a){return c(G7)},k),m=iC(ba(e[2])),n=iC(ba(e[1])),o=d(G8);return[0,c6(w(a,G9)),o,n,m,l]}if(p(b,G0))throw aa}var
-g=d(G1),h=c(G2),i=c(G3);return[1,aJ(b,G4),i,h,g]}function
-lz(aF){var
-j=eq(aF),k=j[1];if(p(k,G_)){if(p(k,G$)){if(p(k,Ha)){if(p(k,Hb))return ar([0,Hd,[0,k,Hc]]);var
-C=w(al(j[2]),He),an=0;if(2===C[0]){var
-R=p(C[1],Hf);if(!R){var
+b=1;if(b)return d}return r0(c)}function
+lF(b){var
+a=am(b[2]);if(p(b[1],Hb)){var
+c=dL(ab,z(a,Hc)),d=dL(ab,z(a,Hd)),e=d[2],f=d[1],g=ab(z(a,He));return[1,c[1],c[2],g,f,e]}var
+h=Z(ab,af(z(a,Hf)));return[0,Z(ab,af(z(a,Hg))),h]}function
+Hh(f){var
+a=am(f);function
+d(b){return ab(z(a,b))}function
+c(b){return gB(ab,z(a,b))}var
+b=ba(z(a,Hi));if(p(b,Hj)){if(!p(b,Hk)){var
+j=z(a,Hq),e=dL(function(a){return a},j),k=bm(a,Hr),l=cF(function(a){return c(Hs)},k),m=iI(ba(e[2])),n=iI(ba(e[1])),o=d(Ht);return[0,dc(z(a,Hu)),o,n,m,l]}if(p(b,Hl))throw aa}var
+g=d(Hm),h=c(Hn),i=c(Ho);return[1,aM(b,Hp),i,h,g]}function
+lG(aF){var
+j=eu(aF),k=j[1];if(p(k,Hv)){if(p(k,Hw)){if(p(k,Hx)){if(p(k,Hy))return at([0,HA,[0,k,Hz]]);var
+C=z(am(j[2]),HB),an=0;if(2===C[0]){var
+R=p(C[1],HC);if(!R){var
 Q=R;an=1}}if(!an)var
-Q=[0,ch(C)];return[6,Q]}var
-S=al(j[2]),l=lz([0,[0,[0,Hh,w(S,Hg)],0]]);if(0===l[0]){var
+Q=[0,ck(C)];return[6,Q]}var
+S=am(j[2]),l=lG([0,[0,[0,HE,z(S,HD)],0]]);if(0===l[0]){var
 D=l[2];if(0===D[0]&&!l[3]){var
-T=l[4];if(!aR(cg,T)){var
-aG=ab(w(S,Hj));return[5,l[1],D[1],D[2],T,aG]}}}return ar(Hi)}var
-b=al(j[2]),E=bm(b,Hk),F=E?Z(GW,af(E[1])):E,s=function(b){var
-a=0!==F?1:0;return a?ar(Hl):a},m=eq(w(b,Hm)),c=eq(w(b,Hn)),d=m[1];if(p(d,Ho)&&p(d,Hp)&&p(d,Hq)){if(0===bm(b,Hr)){if(p(d,Hs)){var
-ao=0;if(p(d,Ht)){if(!p(d,Hu)){var
-U=c[1],ap=0;if(p(U,Hx)&&p(U,Hy)){ao=1;ap=1}if(!ap){var
-n=af(m[2]),aH=af(w(b,HB)),G=Z(function(a){return er(0,a)},aH),aI=aR(function(a){switch(a[1]){case
-5:return 1-ez(FT,n);case
-11:return aR(FW,n);case
+T=l[4];if(!aT(cj,T)){var
+aG=ab(z(S,HG));return[5,l[1],D[1],D[2],T,aG]}}}return at(HF)}var
+a=am(j[2]),E=bm(a,HH),F=E?Z(Hh,af(E[1])):E,s=function(b){var
+a=0!==F?1:0;return a?at(HI):a},m=eu(z(a,HJ)),c=eu(z(a,HK)),d=m[1];if(p(d,HL)&&p(d,HM)&&p(d,HN)){if(0===bm(a,HO)){if(p(d,HP)){var
+ao=0;if(p(d,HQ)){if(!p(d,HR)){var
+U=c[1],ap=0;if(p(U,HU)&&p(U,HV)){ao=1;ap=1}if(!ap){var
+n=af(m[2]),aI=af(z(a,HY)),G=Z(function(a){return ev(0,a)},aI),aJ=aT(function(a){switch(a[1]){case
+5:return 1-eE(Ge,n);case
+11:return aT(Gh,n);case
 7:case
 9:case
 10:case
-12:return 1;default:return 0}},G);if(!aR(Ft,n)){var
-aq=0;if(!aR(cg,G)||aI)aq=1;if(aq){var
-aN=Z(Fd,n),i=al(c[2]);if(p(c[1],GK))var
-O=dJ(ab,w(i,GL)),P=dJ(ab,w(i,GM)),aB=P[2],aC=P[1],aD=ab(w(i,GN)),V=[1,O[1],O[2],aD,aC,aB];else
+12:return 1;default:return 0}},G);if(!aT(FQ,n)){var
+aq=0;if(!aT(cj,G)||aJ)aq=1;if(aq){var
+aN=Z(FA,n),i=am(c[2]);if(p(c[1],G7))var
+O=dL(ab,z(i,G8)),P=dL(ab,z(i,G9)),aB=P[2],aC=P[1],aD=ab(z(i,G_)),V=[1,O[1],O[2],aD,aC,aB];else
 var
-aE=gv(ab,w(i,GO)),V=[0,gv(ab,w(i,GP)),aE];return[0,aN,V,F,G]}}s(0);var
-aL=Z(lx,af(w(b,HC))),aM=ly(c);return[1,0,Z(rJ,n),0,aM,0,aL]}}}else
-if(!p(c[1],HD)){s(0);var
-W=Z(lx,af(w(b,HE))),z=0,g=W;for(;;){if(g){var
+aE=gB(ab,z(i,G$)),V=[0,gB(ab,z(i,Ha)),aE];return[0,aN,V,F,G]}}s(0);var
+aK=Z(lE,af(z(a,HZ))),aL=lF(c);return[1,0,Z(rY,n),0,aL,0,aK]}}}else
+if(!p(c[1],H0)){s(0);var
+W=Z(lE,af(z(a,H1))),y=0,g=W;for(;;){if(g){var
 L=g[2],M=g[1];if(0===M[1]){var
-z=[0,M,z],g=L;continue}var
+y=[0,M,y],g=L;continue}var
 g=L;continue}var
-q=i_(z),as=0;if(q){var
+q=je(y),ar=0;if(q){var
 e=0,X=q[1][4];if(typeof
 X==="number")e=1;else
 switch(X[0]){case
@@ -9679,91 +9832,100 @@ I=q[2];if(I){var
 K=0,_=I[1][4];if(typeof
 _!=="number"&&0===_[0])if(I[2]){e=1;K=1}else
 K=1;if(!K)e=1}else
-e=1;break;default:e=1}if(!e)as=1}if(!as)ar(HF);var
-aO=ab(w(al(c[2]),HG));return[4,ab(w(al(m[2]),HH)),aO,W]}}if(!ao)return ar([0,Hw,[0,d,Hv]])}else
-if(!p(c[1],HI)){s(0);var
-t=al(m[2]),$=al(c[2]),ac=function(c,a){var
+e=1;break;default:e=1}if(!e)ar=1}if(!ar)at(H2);var
+aO=ab(z(am(c[2]),H3));return[4,ab(z(am(m[2]),H4)),aO,W]}}if(!ao)return at([0,HT,[0,d,HS]])}else
+if(!p(c[1],H5)){s(0);var
+t=am(m[2]),$=am(c[2]),ac=function(c,a){var
 b=af(a);return Z(function(d){var
 a=af(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 e=h(c,b[1]);return[0,ba(a[1]),e]}}throw aa},b)},aP=function(d){var
-a=al(d);if(a){var
-b=a[1],c=b[1];if(p(c,HJ)){if(!p(c,HK)&&!a[2])return[0,Z(lv,af(b[2]))]}else
-if(!a[2])return[1,lv(b[2])]}throw aa},ad=ac(lv,w(t,HL)),ae=Z(aP,af(w(t,HM))),A=0,r=ae;for(;;){if(r){var
-B=r[1],au=r[2],av=0===B[0]?B[1]:[0,B[1],0],A=mi(av,A),r=au;continue}var
-aw=i_(A),f=function(b,a){switch(a[0]){case
+a=am(d);if(a){var
+b=a[1],c=b[1];if(p(c,H6)){if(!p(c,H7)&&!a[2])return[0,Z(lC,af(b[2]))]}else
+if(!a[2])return[1,lC(b[2])]}throw aa},ad=ac(lC,z(t,H8)),ae=Z(aP,af(z(t,H9))),A=0,r=ae;for(;;){if(r){var
+B=r[1],au=r[2],av=0===B[0]?B[1]:[0,B[1],0],A=mp(av,A),r=au;continue}var
+aw=je(A),f=function(b,a){switch(a[0]){case
 0:var
 c=1;break;case
 1:var
-d=mk(a[1],b),e=1,g=d?d[1]:e,c=g;break;case
+d=mr(a[1],b),e=1,g=d?d[1]:e,c=g;break;case
 3:var
 h=f(b,a[3]),c=(1+f(b,a[2])|0)+h|0;break;case
 4:var
-i=i9(a[2]),c=l8(f(b,a[1]),i);break;default:var
-c=1+f(b,a[1])|0}return mf(32769,c)},ax=0,N=mj(function(b,a){var
-c=f(b,a[2]);return[0,[0,a[1],c],b]},ax,ad),ay=Z(function(a){return f(N,a)},aw),az=mg(Z(aK,N),ay),aA=0;if(32768<mj(function(b,a){return b+a|0},aA,az))ar([0,HO,[0,a("32768"),HN]]);var
-aQ=Z(GF,af(w(b,HP))),aS=Z(ab,af(w($,HQ))),aT=Z(ab,af(w($,HR))),aU=ac(ch,w(t,HS));return[3,Z(ba,af(w(t,HT))),aU,ad,ae,aT,aS,aQ]}}return ar([0,HA,[0,c[1],Hz]])}throw aa}var
-ag=al(m[2]),u=cE(ab,bm(ag,HU)),aV=function(f){var
-a=eq(f),b=a[1];if(p(b,HV)){if(p(b,HW)){if(p(b,HX)){if(p(b,HY))throw aa;var
-d=a[2],g=ab(w(al(d),HZ));return[3,ab(w(al(d),H0)),g]}var
-h=a[2],c=function(a){return dJ(ab,w(al(h),a))},i=c(H1),j=c(H2);return[1,c(H3),j,i]}var
-e=dJ(ab,a[2]);return[0,e[1],e[2]]}return[2,ab(a[2])]},v=cE(aV,bm(b,H4)),ah=p(d,H5),ai=ah?p(d,H6)?2:1:ah,x=af(w(ag,H7));if(u&&v&&ez(rK,x)){var
+i=jd(a[2]),c=md(f(b,a[1]),i);break;default:var
+c=1+f(b,a[1])|0}return mm(32769,c)},ax=0,N=mq(function(b,a){var
+c=f(b,a[2]);return[0,[0,a[1],c],b]},ax,ad),ay=Z(function(a){return f(N,a)},aw),az=mn(Z(aH,N),ay),aA=0;if(32768<mq(function(b,a){return b+a|0},aA,az))at([0,H$,[0,b("32768"),H_]]);var
+aQ=Z(G2,af(z(a,Ia))),aR=Z(ab,af(z($,Ib))),aS=Z(ab,af(z($,Ic))),aU=ac(ck,z(t,Id));return[3,Z(ba,af(z(t,Ie))),aU,ad,ae,aS,aR,aQ]}}return at([0,HX,[0,c[1],HW]])}throw aa}var
+ag=am(m[2]),u=cF(ab,bm(ag,If)),aV=function(f){var
+a=eu(f),b=a[1];if(p(b,Ig)){if(p(b,Ih)){if(p(b,Ii)){if(p(b,Ij))throw aa;var
+d=a[2],g=ab(z(am(d),Ik));return[3,ab(z(am(d),Il)),g]}var
+h=a[2],c=function(a){return dL(ab,z(am(h),a))},i=c(Im),j=c(In);return[1,c(Io),j,i]}var
+e=dL(ab,a[2]);return[0,e[1],e[2]]}return[2,ab(a[2])]},v=cF(aV,bm(a,Ip)),ah=p(d,Iq),ai=ah?p(d,Ir)?2:1:ah,w=af(z(ag,Is));if(u&&v&&eE(rZ,w)){var
 aW=function(c){var
-a=al(c);function
-b(b){return Z(ch,af(w(a,b)))}if(0!==bm(a,H8))ar(H9);var
-d=b(H_);return[0,b(H$),d]},aX=Z(GH,af(w(b,Ia))),aY=v[1],aZ=ly(c),a0=u[1];return[2,ai,Z(aW,x),a0,aZ,aY,F,aX]}s(0);var
-at=0;if(!u&&aJ(d,Id)){var
-aj=1;at=1}if(!at)var
+a=am(c);function
+b(b){return Z(ck,af(z(a,b)))}if(0!==bm(a,It))at(Iu);var
+d=b(Iv);return[0,b(Iw),d]},aX=Z(G4,af(z(a,Ix))),aY=v[1],aZ=lF(c),a0=u[1];return[2,ai,Z(aW,w),a0,aZ,aY,F,aX]}s(0);var
+as=0;if(!u&&aM(d,IA)){var
+aj=1;as=1}if(!as)var
 aj=[0,ai];var
-ak=0!==v?1:0,a1=ak?aR(rK,x):ak;if(a1)ar(Ib);var
-a2=Z(lx,af(w(b,Ic))),a3=ly(c);return[1,aj,Z(rJ,x),u,a3,v,a2]}var
-y=al(j[2]);function
+ak=0!==v?1:0,a1=ak?aT(rZ,w):ak;if(a1)at(Iy);var
+a2=Z(lE,af(z(a,Iz))),a3=lF(c);return[1,aj,Z(rY,w),u,a3,v,a2]}var
+x=am(j[2]);function
 a4(b){var
-a=al(b),c=ab(w(a,Ie)),d=[0,ab(w(a,If)),c];return[0,ba(w(a,Ig)),d]}var
-o=lz([0,[0,[0,Ii,w(y,Ih)],0]]);if(0===o[0]&&!o[3]){var
-am=o[4];if(!aR(cg,am)){var
-a5=ab(w(y,Ik)),a6=ab(w(y,Il)),a7=o[2],a8=o[1];return[7,Z(a4,af(w(y,Im))),a8,a7,am,a6,a5]}}return ar(Ij)}function
-fh(a){return Z(fg,af(a))}function
-iD(c,b){var
-a=fh(b);if(cL(a)!==c)throw aa;return a}function
-rN(a,d){var
-b=al(d),e=af(w(b,Ip)),f=a[2],c=Z(function(a){return iD(f,a)},e),g=a[1];if(cL(c)!==g)throw aa;return[0,c,dI(w(b,Iq))]}function
-dK(ay,i){var
-aw=0;if(0===i[0]){var
+a=am(b),c=ab(z(a,IB)),d=[0,ab(z(a,IC)),c];return[0,ba(z(a,ID)),d]}var
+o=lG([0,[0,[0,IF,z(x,IE)],0]]);if(0===o[0]&&!o[3]){var
+al=o[4];if(!aT(cj,al)){var
+a5=ab(z(x,IH)),a6=ab(z(x,II)),a7=o[2],a8=o[1];return[7,Z(a4,af(z(x,IJ))),a8,a7,al,a6,a5]}}return at(IG)}function
+ew(a){return Z(fl,af(a))}function
+iJ(c,b){var
+a=ew(b);if(cM(a)!==c)throw aa;return a}function
+r2(a,d){var
+b=am(d),e=af(z(b,IM)),f=a[2],c=Z(function(a){return iJ(f,a)},e),g=a[1];if(cM(c)!==g)throw aa;return[0,c,db(z(b,IN))]}function
+dd(aC,i){var
+aA=0;if(0===i[0]){var
 q=i[1];if(q){var
-W=q[1];if(!p(W[1],Ir)){var
-aj=W[2];if(0===aj[0]){var
-N=aj[1];if(N){var
-ak=N[1];if(!p(ak[1],IW)){var
-am=ak[2];if(1===am[0]){var
-O=am[1];if(O){var
-an=O[1];if(1===an[0]){var
-ao=an[1];if(ao&&!ao[2]&&!O[2]){var
-ap=N[2];if(ap&&!ap[2]&&!q[2]){var
-f=IX;aw=1}}}}}}}}}}}if(!aw)var
-f=ay;var
-r=f[2];switch(i[0]){case
+_=q[1];if(!p(_[1],IO)){var
+ap=_[2];if(0===ap[0]){var
+Q=ap[1];if(Q){var
+aq=Q[1];if(!p(aq[1],Ji)){var
+ar=aq[2];if(1===ar[0]){var
+R=ar[1];if(R){var
+as=R[1];if(1===as[0]){var
+au=as[1];if(au&&!au[2]&&!R[2]){var
+av=Q[2];if(av&&!av[2]&&!q[2]){var
+g=Jj;aA=1}}}}}}}}}}}if(!aA)var
+g=aC;var
+r=g[2];switch(i[0]){case
 0:var
 c=i[1];if(c){var
-e=c[1],a=e[1],X=t_(a,Is),b=0;if(0<=X)if(0<X)if(p(a,It)){var
-g=0;if(p(a,Iu)&&p(a,Iv)&&p(a,Iw))if(p(a,Ix))g=1;else{var
-Y=e[2];if(1===Y[0]){var
-s=Y[1];if(s){var
+d=c[1],a=d[1],$=uo(a,IP),b=0;if(0<=$)if(0<$)if(p(a,IQ)){var
+e=0;if(p(a,IR)&&p(a,IS)&&p(a,IT))if(p(a,IU))if(p(a,IV))e=1;else{var
+ab=d[2];if(1===ab[0]){var
+s=ab[1];if(s){var
 t=s[2];if(t){var
 u=t[2];if(u&&!u[2]){if(!c[2]){var
-az=Z(fh,af(u[1])),aA=ba(t[1]);return[8,dK(f,s[1]),aA,az]}b=1;g=1}else
-g=1}else
-g=1}else
-g=1}else
-g=1}if(!g)if(c[2])b=1;else{var
-aB=e[2],x=aB,v=function(c,b){return[1,a,c,b]};b=2}}else{var
-$=e[2];if(1===$[0]){var
-y=$[1];if(y){var
-z=y[2];if(z){var
-A=z[2];if(A&&!A[2]){if(!c[2]){var
-aC=dI(A[1]),aD=fg(z[1]);return[5,dK(f,y[1]),aD,aC]}b=1}}}}}else{var
-ab=e[2];if(1===ab[0]){if(!c[2]){var
-aE=function(x){if(1===x[0]){var
+aD=Z(ew,af(u[1])),aE=ba(t[1]);return[8,dd(g,s[1]),aE,aD]}b=1;e=1}else
+e=1}else
+e=1}else
+e=1}else
+e=1}else{var
+ac=d[2];if(1===ac[0]){var
+v=ac[1];if(v){var
+w=v[2];if(w){var
+x=w[2];if(x&&!x[2]){if(!c[2]){var
+aF=db(x[1]),aG=Z(ew,af(w[1]));return[11,dd(g,v[1]),aG,aF]}b=1;e=1}else
+e=1}else
+e=1}else
+e=1}else
+e=1}if(!e)if(c[2])b=1;else{var
+aI=d[2],A=aI,y=function(c,b){return[1,a,c,b]};b=2}}else{var
+ae=d[2];if(1===ae[0]){var
+B=ae[1];if(B){var
+C=B[2];if(C){var
+D=C[2];if(D&&!D[2]){if(!c[2]){var
+aJ=db(D[1]),aK=fl(C[1]);return[5,dd(g,B[1]),aK,aJ]}b=1}}}}}else{var
+ag=d[2];if(1===ag[0]){if(!c[2]){var
+aL=function(x){if(1===x[0]){var
 i=x[1];if(i){var
 j=i[2];if(j){var
 k=j[2];if(k){var
@@ -9772,116 +9934,116 @@ m=l[1],b=m;for(;;){var
 n=0;switch(b[0]){case
 0:var
 c=b[1];if(c){var
-q=c[1],a=q[1];if(p(a,IA)){var
-y=0;if(p(a,IB)&&p(a,IC)&&p(a,ID)&&p(a,IE))y=1;if(!y&&!c[2])n=1}else{var
+q=c[1],a=q[1];if(p(a,IY)){var
+y=0;if(p(a,IZ)&&p(a,I0)&&p(a,I1)&&p(a,I2))y=1;if(!y&&!c[2])n=1}else{var
 r=q[2];if(1===r[0]){var
 s=r[1];if(s&&!c[2]){var
 b=s[1];continue}}}}break;case
 2:var
-t=b[1];if(!p(t,IF)||!p(t,IG))n=1;break}var
+t=b[1];if(!p(t,I3)||!p(t,I4))n=1;break}var
 z=n?1:0;if(z){var
-A=dK(f,m),B=dI(k[1]),C=fg(j[1]),d=m,D=[0,[0,[0,fh(i[1]),C],B],A];for(;;){var
+A=dd(g,m),B=db(k[1]),C=fl(j[1]),d=m,D=[0,[0,[0,ew(i[1]),C],B],A];for(;;){var
 o=0;switch(d[0]){case
 0:var
 e=d[1];if(e){var
-u=e[1],h=u[1],g=0;if(p(h,IH))if(p(h,II)){if(p(h,IJ))g=1}else
-if(e[2])g=1;else{o=1;g=1}if(!g){var
+u=e[1],h=u[1],f=0;if(p(h,I5))if(p(h,I6)){if(p(h,I7))f=1}else
+if(e[2])f=1;else{o=1;f=1}if(!f){var
 v=u[2];if(1===v[0]){var
 w=v[1];if(w&&!e[2]){var
 d=w[1];continue}}}}break;case
-2:if(!p(d[1],IK))o=1;break}var
-E=o?1:0;return[0,E,D]}}return ar(IL)}}}}}}throw aa},B=Z(aE,ab[1]),ac=aR(as,B),aF=ac?1-ez(as,B):ac;if(aF)ar(IM);return[9,Z(aK,B)]}b=1}}else
-if(p(a,IN))if(p(a,IO))if(p(a,IP))if(p(a,IQ))if(p(a,IR)){if(!p(a,IS)){if(!c[2]){var
-ad=al(e[2]),aG=af(w(ad,IT)),aH=r+1|0,ae=Z(function(a){return iD(aH,a)},aG);if(3===cL(ae))return[1,IV,ae,dI(w(ad,IU))];throw aa}b=1}}else{if(!c[2]){var
-T=ba(e[2]),U=p(T,In);if(U){if(p(T,Io))throw aa;var
-V=1}else
+2:if(!p(d[1],I8))o=1;break}var
+E=o?1:0;return[0,E,D]}}return at(I9)}}}}}}throw aa},E=Z(aL,ag[1]),ah=aT(ao,E),aM=ah?1-eE(ao,E):ah;if(aM)at(I_);return[9,Z(aH,E)]}b=1}}else
+if(p(a,I$))if(p(a,Ja))if(p(a,Jb))if(p(a,Jc))if(p(a,Jd)){if(!p(a,Je)){if(!c[2]){var
+ai=am(d[2]),aN=af(z(ai,Jf)),aO=r+1|0,aj=Z(function(a){return iJ(aO,a)},aN);if(3===cM(aj))return[1,Jh,aj,db(z(ai,Jg))];throw aa}b=1}}else{if(!c[2]){var
+W=ba(d[2]),X=p(W,IK);if(X){if(p(W,IL))throw aa;var
+Y=1}else
 var
-V=U;return[2,V]}b=1}else{if(!c[2]){var
-k=e[2],o=0;switch(k[0]){case
+Y=X;return[2,Y]}b=1}else{if(!c[2]){var
+k=d[2],o=0;switch(k[0]){case
 0:var
 l=k[1];if(l){var
-aq=l[1],j=aq[1],d=0;if(p(j,IY)&&p(j,IZ)&&p(j,I0)&&p(j,I1))if(p(j,I2))d=1;else{var
-at=aq[2];if(1===at[0]){var
-P=at[1];if(P){var
-m=P[1],h=0;switch(m[0]){case
+aw=l[1],j=aw[1],f=0;if(p(j,Jk)&&p(j,Jl)&&p(j,Jm)&&p(j,Jn))if(p(j,Jo))f=1;else{var
+ax=aw[2];if(1===ax[0]){var
+S=ax[1];if(S){var
+m=S[1],h=0;switch(m[0]){case
 0:var
-Q=m[1];if(Q){var
-n=Q[1][1],ax=0;if(p(n,I4)&&p(n,I5)&&p(n,I6)&&p(n,I7)){d=1;h=1;ax=1}if(!ax&&Q[2]){d=1;h=1}}else{d=1;h=1}break;case
+T=m[1];if(T){var
+n=T[1][1],aB=0;if(p(n,Jq)&&p(n,Jr)&&p(n,Js)&&p(n,Jt)){f=1;h=1;aB=1}if(!aB&&T[2]){f=1;h=1}}else{f=1;h=1}break;case
 2:var
-au=m[1];if(p(au,I8)&&p(au,I9)){d=1;h=1}break;default:d=1;h=1}if(!h){var
-R=P[2];if(R){var
-S=R[2];if(S&&!(S[2]||l[2])){var
-aT=dI(S[1]),aU=fg(R[1]),C=[6,dK(f,m),aU,aT];o=2;d=1}else
-d=1}else
-d=1}}else
-d=1}else
-d=1}if(!d&&!l[2])o=1}break;case
+ay=m[1];if(p(ay,Ju)&&p(ay,Jv)){f=1;h=1}break;default:f=1;h=1}if(!h){var
+U=S[2];if(U){var
+V=U[2];if(V&&!(V[2]||l[2])){var
+aZ=db(V[1]),a0=fl(U[1]),F=[6,dd(g,m),a0,aZ];o=2;f=1}else
+f=1}else
+f=1}}else
+f=1}else
+f=1}if(!f&&!l[2])o=1}break;case
 2:var
-av=k[1];if(!p(av,I_)||!p(av,I$))o=1;break}switch(o){case
+az=k[1];if(!p(az,Jw)||!p(az,Jx))o=1;break}switch(o){case
 0:var
-C=ar(I3);break;case
+F=at(Jp);break;case
 1:var
-C=dK(f,k);break}return[7,C]}b=1}else{var
-ag=e[2];if(1===ag[0]){var
-D=ag[1];if(D){var
-E=D[2];if(E&&!E[2])if(c[2])b=1;else{var
-aI=E[1],aJ=D[1],x=aJ,v=function(b,a){return[3,b,a,iD(r+1|0,aI)]};b=2}}}}else{var
-ah=e[2];if(1===ah[0]){var
-F=ah[1];if(F){var
-G=F[2];if(G){var
-H=G[2];if(H){var
-I=H[2];if(I){var
-J=I[2];if(J&&!J[2]){if(!c[2]){var
-aL=dK(f,J[1]),aM=dK(f,I[1]),aN=Z(fh,af(H[1])),aO=dI(G[1]);return[10,iD(r+1|0,F[1]),aO,aN,aM,aL]}b=1}}}}}}}else{var
-ai=e[2];if(1===ai[0]){var
-K=ai[1];if(K){var
+F=dd(g,k);break}return[7,F]}b=1}else{var
+ak=d[2];if(1===ak[0]){var
+G=ak[1];if(G){var
+H=G[2];if(H&&!H[2])if(c[2])b=1;else{var
+aP=H[1],aQ=G[1],A=aQ,y=function(b,a){return[3,b,a,iJ(r+1|0,aP)]};b=2}}}}else{var
+al=d[2];if(1===al[0]){var
+I=al[1];if(I){var
+J=I[2];if(J){var
+K=J[2];if(K){var
 L=K[2];if(L){var
-M=L[2];if(M&&!M[2])if(c[2])b=1;else{var
-aP=M[1],aQ=L[1],aS=K[1],x=aS,v=function(b,a){var
-c=dI(aP);return[4,b,a,fg(aQ),c]};b=2}}}}}switch(b){case
-0:if(!c[2])return ar([0,Iz,[0,a,Iy]]);break;case
+M=L[2];if(M&&!M[2]){if(!c[2]){var
+aR=dd(g,M[1]),aS=dd(g,L[1]),aU=Z(ew,af(K[1])),aV=db(J[1]);return[10,iJ(r+1|0,I[1]),aV,aU,aS,aR]}b=1}}}}}}}else{var
+an=d[2];if(1===an[0]){var
+N=an[1];if(N){var
+O=N[2];if(O){var
+P=O[2];if(P&&!P[2])if(c[2])b=1;else{var
+aW=P[1],aX=O[1],aY=N[1],A=aY,y=function(b,a){var
+c=db(aW);return[4,b,a,fl(aX),c]};b=2}}}}}switch(b){case
+0:if(!c[2])return at([0,IX,[0,a,IW]]);break;case
 1:break;default:var
-_=rN(f,x);return v(_[1],_[2])}}break;case
+ad=r2(g,A);return y(ad[1],ad[2])}}break;case
 2:return[0,i[1]]}throw aa}function
-rO(n){var
-b=eq(n),a=b[1];if(p(a,Jc))if(p(a,Jd)){var
-h=p(a,Je);if(!h)return h;if(p(a,Jf)){if(!p(a,Jg)){var
-c=al(b[2]),i=function(a){return Z(ab,af(w(c,a)))},j=al(w(c,Jk)),o=dI(w(j,Jl)),q=Z(fh,af(w(j,Jm))),r=i(Jn),s=i(Jo);return[3,c6(w(c,Jp)),s,r,q,o]}if(!p(a,Jh))return[2,Z(ab,af(b[2]))]}else{var
+r3(n){var
+b=eu(n),a=b[1];if(p(a,JA))if(p(a,JB)){var
+h=p(a,JC);if(!h)return h;if(p(a,JD)){if(!p(a,JE)){var
+c=am(b[2]),i=function(a){return Z(ab,af(z(c,a)))},j=am(z(c,JI)),o=db(z(j,JJ)),q=Z(ew,af(z(j,JK))),r=i(JL),s=i(JM);return[3,dc(z(c,JN)),s,r,q,o]}if(!p(a,JF))return[2,Z(ab,af(b[2]))]}else{var
 k=b[2];if(1===k[0]){var
 d=k[1];if(d){var
 e=d[2];if(e&&!e[2]){var
-t=c6(e[1]);return[1,c6(d[1]),t]}}}}}else{var
+t=dc(e[1]);return[1,dc(d[1]),t]}}}}}else{var
 l=b[2];if(1===l[0]){var
 f=l[1];if(f){var
 g=f[2];if(g&&!g[2]){var
-u=Z(fh,af(g[1]));return[0,c6(f[1]),u]}}}}else{var
-m=b[2];if(1===m[0]&&!m[1])return 1}return ar([0,Jj,[0,a,Ji]])}function
-rP(f,b){var
-a=al(b),c=af(w(a,Ju)),d=Z(function(g){var
-a=al(g);function
+u=Z(ew,af(g[1]));return[0,dc(f[1]),u]}}}}else{var
+m=b[2];if(1===m[0]&&!m[1])return 1}return at([0,JH,[0,a,JG]])}function
+r4(f,b){var
+a=am(b),c=af(z(a,JS)),d=Z(function(g){var
+a=am(g);function
 b(d,c){var
 b=bm(a,c);return b?Z(d,af(b[1])):b}var
-c=b(fg,Jq),d=cE(rO,bm(a,Jr)),e=cE(c6,bm(a,Js));return[0,b(function(h){var
+c=b(fl,JO),d=cF(r3,bm(a,JP)),e=cF(dc,bm(a,JQ));return[0,b(function(h){var
 b=af(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!p(c[1],Ja)){if(!a[2]){if(p(gu(e),Jb))throw aa;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!p(c[1],Jy)){if(!a[2]){if(p(gA(e),Jz))throw aa;d=1}}else
 d=1;if(d&&!a[2]){var
-g=dK(f,c);return[0,c6(e),g]}}}throw aa},Jt),e,d,c]},c),e=bm(a,Jv),g=cE(function(a){return rN(f,a)},e);return[0,rG(w(a,Jw)),g,d]}function
-rQ(c){var
-a=al(c),b=bm(a,Jx),d=b?Z(ab,af(b[1])):b,e=rO(w(a,Jy)),f=Z(ab,af(w(a,Jz)));return[0,rG(w(a,JA)),f,d,e]}function
-JK(c){var
+g=dd(f,c);return[0,dc(e),g]}}}throw aa},JR),e,d,c]},c),e=bm(a,JT),g=cF(function(a){return r2(f,a)},e);return[0,rV(z(a,JU)),g,d]}function
+r5(c){var
+a=am(c),b=bm(a,JV),d=b?Z(ab,af(b[1])):b,e=r3(z(a,JW)),f=Z(ab,af(z(a,JX)));return[0,rV(z(a,JY)),f,d,e]}function
+J8(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-JL(b){var
+J9(b){var
 a=b[3];if(a&&1===a[1][0])return 1;return 0}function
-JM(b){var
-c=b[1],a=b[4];if(!(1<c+sJ>>>0)&&typeof
-a!=="number"&&1===a[0])return 1-hY(k(a[1]));return 10===c?1:0}function
-JQ(f){var
-i=aG(f),b=[0,0];function
+J_(b){var
+c=b[1],a=b[4];if(!(1<c+sY>>>0)&&typeof
+a!=="number"&&1===a[0])return 1-h4(l(a[1]));return 10===c?1:0}function
+Kc(f){var
+i=aI(f),b=[0,0];function
 j(a){if(b[1]<i)return be(f,b[1]);throw aa}function
 k(a){if(j(0)===a){b[1]++;return 0}throw aa}function
-B(a,c){for(;;){if(b[1]<i&&h(c,be(f,b[1]))){b[1]++;continue}return eA(f,a,b[1]-a|0)}}function
+B(a,c){for(;;){if(b[1]<i&&h(c,be(f,b[1]))){b[1]++;continue}return eF(f,a,b[1]-a|0)}}function
 C(d){k(34);function
 a(a){var
 b=34!==a?1:0;if(b)var
@@ -9892,7 +10054,7 @@ c=B(b[1],a);k(34);return c}function
 D(e,a){if(j(0)===a){b[1]++;return 0}var
 c=0;for(;;){var
 d=[0,h(e,0),c];if(44===j(0)){b[1]++;var
-c=d;continue}k(a);return i_(d)}}function
+c=d;continue}k(a);return je(d)}}function
 r(c,l){if(64<c)throw aa;var
 a=j(0),d=0;if(48<=a){if(91===a){b[1]++;var
 f=93,g=c+1|0;return[1,D(function(a){return r(g,a)},f)]}if(123===a){b[1]++;var
@@ -9900,62 +10062,62 @@ h=125;return[0,D(function(b){var
 a=C(0);k(58);return[0,a,r(c+1|0,0)]},h)]}if(!(58<=a))d=1}else{if(34===a)return[2,C(0)];if(45===a)d=1}if(d){var
 i=b[1];b[1]++;var
 e=B(i,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c});if(p(e,E3))return[3,e];throw aa}throw aa}var
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c});if(p(e,Fo))return[3,e];throw aa}throw aa}var
 R=r(0,0),E=b[1]<i?1:0,S=E?10===be(f,b[1])?1:0:E;if(S)b[1]++;if(b[1]<i)throw aa;var
-o=al(R);if(p(ba(w(o,JR)),JS))throw aa;var
-a=lz(w(o,JT)),x=0;switch(a[0]){case
+o=am(R);if(p(ba(z(o,Kd)),Ke))throw aa;var
+a=lG(z(o,Kf)),w=0;switch(a[0]){case
 1:var
-u=a[1],y=0;if(typeof
+u=a[1],x=0;if(typeof
 u==="number")if(u)var
 v=2;else
-y=1;else
+x=1;else
 if(1===u[1])var
 v=6;else
-y=1;if(y)var
+x=1;if(x)var
 v=3;var
-e=[0,cL(a[2]),v];break;case
+e=[0,cM(a[2]),v];break;case
 2:var
-ai=1===a[1]?6:3,e=[0,cL(a[2]),ai];break;case
+ai=1===a[1]?6:3,e=[0,cM(a[2]),ai];break;case
 3:var
-aj=cL(a[1]),e=[0,cL(a[4]),aj];break;case
+aj=cM(a[1]),e=[0,cM(a[4]),aj];break;case
 7:var
-F=a[2];x=1;break;case
+F=a[2];w=1;break;case
 0:case
 5:var
-F=a[1];x=1;break;default:var
-e=J$}if(x)var
-e=[0,cL(F),3];var
-l=eq(w(o,JU)),m=l[1];if(p(m,JF))if(p(m,JG))if(p(m,JH))var
-c=ar([0,JJ,[0,m,JI]]);else
+F=a[1];w=1;break;default:var
+e=Kx}if(w)var
+e=[0,cM(F),3];var
+l=eu(z(o,Kg)),m=l[1];if(p(m,J3))if(p(m,J4))if(p(m,J5))var
+c=at([0,J7,[0,m,J6]]);else
 var
-n=rQ(l[2]),c=[1,n[1],n[2],n[3],n[4]];else
+n=r5(l[2]),c=[1,n[1],n[2],n[3],n[4]];else
 var
-s=rP(e,l[2]),c=[0,s[1],s[2],s[3]];else
+s=r4(e,l[2]),c=[0,s[1],s[2],s[3]];else
 var
 T=af(l[2]),c=[2,Z(function(g){var
-a=eq(g),b=a[1];if(p(b,JB)){if(p(b,JC)){if(p(b,JD)){var
-f=p(b,JE);if(f)throw aa;return f}return[0,c6(a[2])]}var
-c=rQ(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=rP(e,a[2]);return[1,d[1],d[2],d[3]]},T)];function
+a=eu(g),b=a[1];if(p(b,JZ)){if(p(b,J0)){if(p(b,J1)){var
+f=p(b,J2);if(f)throw aa;return f}return[0,dc(a[2])]}var
+c=r5(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=r4(e,a[2]);return[1,d[1],d[2],d[3]]},T)];function
 U(a){return 10===a[1]?1:0}function
-G(a){return aR(U,a)}function
+G(a){return aT(U,a)}function
 V(a){return 0!==a[3]?1:0}function
-H(a){return aR(V,a)}var
+H(a){return aT(V,a)}var
 d=0;switch(a[0]){case
 0:if(0===c[0]){var
 J=a[4],I=a[1];d=3}else
 d=2;break;case
 1:if(0===c[0]){var
-Y=c[3];if(aR(function(a){var
-b=a[1];return aR(function(a){switch(a[2][0]){case
+Y=c[3];if(aT(function(a){var
+b=a[1];return aT(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},Y))ar(J2);else{var
+7:return 1;default:return 0}},b)},Y))at(Ko);else{var
 O=0;if(G(a[6])){var
-_=a[2];if(aR(function(a){return 2===a[0]?1:0},_)){ar(J3);O=1}}if(!O)d=1}}else
+_=a[2];if(aT(function(a){return 2===a[0]?1:0},_)){at(Kp);O=1}}if(!O)d=1}}else
 d=2;break;case
 2:var
 L=a[1],$=a[7];if(0===c[0]){var
-ab=1===L?6:3,M=cL(a[2])===ab?1:0;if(M){var
+ab=1===L?6:3,M=cM(a[2])===ab?1:0;if(M){var
 P=0;if(2<=L||!(0===a[4][0]))P=1;else
 var
 t=1;if(P)var
@@ -9965,74 +10127,74 @@ t=M;var
 N=function(c){if(8===c[0]){var
 d=c[1];if(7===d[0]){var
 a=d[1],b=0;switch(a[0]){case
-1:if(!p(a[1],J4))b=1;break;case
+1:if(!p(a[1],Kq))b=1;break;case
 6:var
-e=a[1];if(1===e[0]&&!p(e[1],J5))b=1;break}if(b)return t}}return 0},ac=function(a){if(a[1])switch(a[2][0]){case
+e=a[1];if(1===e[0]&&!p(e[1],Kr))b=1;break}if(b)return t}}return 0},ac=function(a){if(a[1])switch(a[2][0]){case
 8:case
 9:return 1}else{var
 b=a[2];switch(b[0]){case
 8:return 1-N(b);case
 9:var
-c=b[1];return 1-ez(function(a){return N(a[2])},c)}}return 0},ad=c[3],ak=0;if(aR(function(a){return aR(ac,a[1])},ad))ar(J6);else{var
-ae=c[3];if(ez(function(a){var
-b=a[1];return ez(function(d){var
+c=b[1];return 1-eE(function(a){return N(a[2])},c)}}return 0},ad=c[3],ak=0;if(aT(function(a){return aT(ac,a[1])},ad))at(Ks);else{var
+ae=c[3];if(eE(function(a){var
+b=a[1];return eE(function(d){var
 b=d[2],a=0;switch(b[0]){case
 0:var
-c=b[1];if(p(c,JN)){if(!p(c,JO))return aR(JM,$)}else
+c=b[1];if(p(c,J$)){if(!p(c,Ka))return aT(J_,$)}else
 a=1;break;case
-1:if(!p(b[1],JP))a=1;break;case
+1:if(!p(b[1],Kb))a=1;break;case
 7:case
 8:case
 9:a=1;break}return a?1:0},b)},ae)){d=1;ak=1}else
-ar(J7)}}else
+at(Kt)}}else
 d=2;break;case
-5:if(aR(JK,a[4]))ar(J8);else
+5:if(aT(J8,a[4]))at(Ku);else
 if(0===c[0]){var
-ag=c[3];if(aR(function(a){return 0!==a[1]?1:0},ag))ar(J9);else
+ag=c[3];if(aT(function(a){return 0!==a[1]?1:0},ag))at(Kv);else
 d=1}else
 d=1;break;case
 7:var
-z=0;if(2===c[0]){var
-ah=c[1];if(aR(function(a){if(typeof
+y=0;if(2===c[0]){var
+ah=c[1];if(aT(function(a){if(typeof
 a!=="number"&&2===a[0]){var
 b=a[4];if(typeof
-b!=="number"&&3===b[0])return 1}return 0},ah))ar(J_);else
-z=1}else
-z=1;if(z){var
+b!=="number"&&3===b[0])return 1}return 0},ah))at(Kw);else
+y=1}else
+y=1;if(y){var
 J=a[4],I=a[2];d=3}break;default:d=1}var
 q=0;switch(d){case
 0:break;case
 3:var
-Q=0;if(G(J)&&aR(function(a){return 2===a[0]?1:0},I)){ar(JV);Q=1}if(!Q)q=2;break;case
+Q=0;if(G(J)&&aT(function(a){return 2===a[0]?1:0},I)){at(Kh);Q=1}if(!Q)q=2;break;case
 1:q=2;break;default:q=1}var
 A=0;switch(q){case
 2:var
 g=0;switch(a[0]){case
 5:case
-7:if(aR(JL,a[4])){ar(J0);g=1}else
+7:if(aT(J9,a[4])){at(Km);g=1}else
 if(7===a[0])switch(c[0]){case
 2:var
 X=function(a){if(typeof
-a!=="number"&&1===a[0])return H(a[3]);return 0};if(aR(X,c[1]))ar(J1);g=1;break;case
+a!=="number"&&1===a[0])return H(a[3]);return 0};if(aT(X,c[1]))at(Kn);g=1;break;case
 0:break;default:A=1;g=1}else
-g=1;break}if(!g)if(0===c[0]&&H(c[3]))ar(JZ);else
+g=1;break}if(!g)if(0===c[0]&&H(c[3]))at(Kl);else
 A=1;break;case
 1:A=1;break}var
-K=al(w(o,JW)),W=ba(w(K,JX));return[0,a,c,ba(w(K,JY)),W]}function
-Ka(b){var
-a=0,f=mf(64,aG(b))-18|0;for(;;){var
+K=am(z(o,Ki)),W=ba(z(K,Kj));return[0,a,c,ba(z(K,Kk)),W]}function
+Ky(b){var
+a=0,f=mm(64,aI(b))-18|0;for(;;){var
 c=a<=f?1:0;if(c){var
-d=aJ(eA(b,a,18),Kb);if(!d){var
+d=aM(eF(b,a,18),Kz);if(!d){var
 a=a+1|0;continue}var
 e=d}else
 var
-e=c;return e}}LW(function(b){try{if(Ka(b))var
-a=Kd;else{try{var
-e=0,d=JQ(b);e=1}catch(a){a=ua(a);if(a[1]===rF)var
+e=c;return e}}Mi(function(b){try{if(Ky(b))var
+a=KB;else{try{var
+e=0,d=Kc(b);e=1}catch(a){a=uq(a);if(a[1]===rU)var
 c=[0,a[2]];else{if(a!==aa)throw a;var
 c=2}}if(e)var
-c=EZ(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return Kc}if(typeof
+c=Fk(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return KA}if(typeof
 a==="number")switch(a){case
-0:return Ke;case
-1:return Kf;default:return Kg}return bo(Kh,a[1])});mh(0);return}(globalThis));
+0:return KC;case
+1:return KD;default:return KE}return bo(KF,a[1])});mo(0);return}(globalThis));
