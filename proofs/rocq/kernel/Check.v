@@ -410,7 +410,7 @@ Definition shows_together (values : list (option slope)) (cell : list fixed) (r 
   let over (holds : list bool -> fixed -> list (list Z * Together.grouped) -> bool) :=
     match rows_apart values of r with
     | Some r => forallb (fun p => Weighted.are_related (fst p) (snd p)) (combine nss r) &&
-        let r := map (fun p => (fst p, (fst (snd p), (Together.kinds_for steps kinds 0 (snd (snd p)), snd (snd p))))) (combine all (combine nss r)) in
+        let r := map (fun p => (fst p, (fst (snd p), (Together.kinds_for (fst p) kinds 0 (snd (snd p)), snd (snd p))))) (combine all (combine nss r)) in
         forallb (fun s => holds s (at_vertex s subtracted) (map (fun p => (fst p, Together.grouped_at bits pl s steps (fst (snd p)) (fst (snd (snd p))) (snd (snd (snd p))))) r)) (signs m)
     | None => false
     end in
@@ -1428,13 +1428,14 @@ Proof.
       pose proof (D (Some t') U v hh ltac:(intros t1 e'; injection e' as <-; exact hU) lv nz) as P. specialize (qU v ltac:(rewrite map_length; congruence)). rewrite hch in qU. rewrite <- lv, quad_diagonal in qU. lra. }
     rewrite at_q in P. pose proof (Rmult_le_pos _ _ (dot_self v) el0). replace (at_lambda lambda q + W0 + (W - W0)) with (at_lambda lambda q + W) in P by ring. lra.
 Qed.
-(** Shares of steps, too, of parameters of second order that have one. *)
+(** Shares of first steps, too, of parameters of second order in the middle. *)
 Lemma all_shares : exists theta0 mss z, Forall2 contains (Tolerances.starts_from ends 0 params) theta0 /\ Forall2 contains params theta0 /\
   (forall j, ~ In j (map fst ends) -> nth j theta0 0 = nth j theta 0) /\ Forall2 (Tolerances.stepped bits) (Second.steps bits ends curved params) mss /\
-  map Tolerances.stride mss = Second.differences ends curved theta0 theta /\ (forall p, Tolerances.is_share (z p)) /\ Together.are_so z (Together.kinds ends curved) mss.
+  map Tolerances.stride mss = Second.differences ends curved theta0 theta /\ (forall p, -1 <= z p <= 1) /\
+  Together.are_so bits z (Together.kinds ends curved) (Second.steps bits ends curved params) (map Tolerances.stride mss).
 Proof.
-  destruct strides as [theta0 [mss [h0 [h1 [same [hm hd]]]]]]. destruct (Together.shares_sound bits ends curved params theta0 theta mss hm hd) as [mss' [z [k1 [k2 [k3 k4]]]]].
-  exists theta0, mss', z. repeat (split; [assumption |]). exact k4.
+  destruct strides as [theta0 [mss [h0 [h1 [same [hm hd]]]]]]. destruct (Second.steps_sound bits ends curved params theta0 theta mss hm hd) as [mss' [k1 k2]]. destruct (Together.shares_sound bits ends curved params theta0 theta mss hm hd) as [z [k3 k4]].
+  exists theta0, mss', z. rewrite k2. repeat (split; [assumption |]). split; [reflexivity |]. split; [exact k3 | exact k4].
 Qed.
 Theorem shows_together_sound : forall r upper mu pl weights less e directions places all, harmless lambda less ->
   shows_together values cell r own upper mu pl weights less e ends curved directions places all = true ->
@@ -1460,7 +1461,7 @@ Proof.
     rewrite <- (app_nil_r (map (Y_value pl) _)), Second.dot_app by (rewrite !map_length; reflexivity). cbn [dot].
     rewrite (Weighted.multiple_changes pl ends theta0 theta row once same). ring. }
   set (steps := Second.steps bits ends curved params) in *. set (kinds := Together.kinds ends curved) in *.
-  set (as_rows := fun srs : list (list (Tolerances.multi slope) * Tolerances.multi slope) => map (fun p => (fst p, (fst (snd p), (Together.kinds_for steps kinds 0 (snd (snd p)), snd (snd p))))) (combine all (combine nss srs))).
+  set (as_rows := fun srs : list (list (Tolerances.multi slope) * Tolerances.multi slope) => map (fun p => (fst p, (fst (snd p), (Together.kinds_for (fst p) kinds 0 (snd (snd p)), snd (snd p))))) (combine all (combine nss srs))).
   set (at_row := fun s (p : list Z * (list Z * (list Together.kind * (list (Tolerances.multi slope) * Tolerances.multi slope)))) => (fst p, Together.grouped_at bits pl s steps (fst (snd p)) (fst (snd (snd p))) (snd (snd (snd p))))).
   assert (Over : forall (holds_at : list bool -> fixed -> list (list Z * Together.grouped) -> bool),
     match rows_apart values of r with Some srs => forallb (fun p => Weighted.are_related (fst p) (snd p)) (combine nss srs) &&
@@ -1489,7 +1490,7 @@ Proof.
       { rewrite map_map. cbn [fst]. clear - l_at. revert l_at. generalize nss. induction at_ as [| a l I]; intros [| n ns] e; try discriminate; [reflexivity |]. cbn [combine map snd]. rewrite I by (cbn in e; congruence). reflexivity. }
       rewrite F in H. apply H; [| apply Changed; exact l_at]. unfold at_. assert (lr : length all = length nss) by congruence. clear - e1 hm hk lr. unfold as_rows. revert lr. generalize all, nss.
       induction e1 as [| q e srs es [k1 k2] e1 I]; intros [| l ls] [| n ns] e'; try discriminate; cbn [combine map]; constructor; [| apply I; cbn in e'; congruence].
-      cbn [fst snd at_row]. exact (Together.grouped_at_sound bits pl s steps n kinds z q (fst e) (snd e) mss k1 k2 hm hk). }
+      cbn [fst snd at_row]. exact (Together.grouped_at_sound bits pl s steps n kinds z l q (fst e) (snd e) mss k1 k2 hm hk). }
   pose proof (dot_self) as d0.
   assert (W_in : forall w : list Z, Forall2 contains (map (Fixed.integer bits) w) (map IZR w)) by (induction w; cbn; constructor; auto using integer_sound).
   assert (D : forall T U v, match T with Some t => Solve.is_definite bits (length cell) t | None => false end = true -> (forall t, T = Some t -> triangle_in bits t U) -> length v = length cell -> nonzero v -> 0 < quad U v)

@@ -495,33 +495,27 @@ Proof.
     rewrite G. ring.
 Qed.
 
-Lemma differences_are : forall theta0 theta mss, Forall2 (fun (e : nat * choice) ms => nth (fst e) theta 0 - nth (fst e) theta0 0 = stride ms) ends mss ->
-  map (fun e => nth (fst e) theta 0 - nth (fst e) theta0 0) ends = map stride mss.
-Proof. intros theta0 theta mss d. induction d as [| e ms es mss h d IH]; [reflexivity |]. cbn [map]. rewrite h, IH. reflexivity. Qed.
-(** Of the steps of two parameters, or of one with itself. *)
-Lemma product_sound : forall params mss, Forall2 (stepped bits) (Tolerances.steps ends params) mss ->
-  forall k, exists ms, stepped bits (product (Tolerances.steps ends params) k) ms /\ stride ms = difference (map stride mss) k.
+Lemma steps_sound : forall params theta0 theta mss, Forall2 (stepped bits) (Tolerances.steps ends params) mss ->
+  Forall2 (fun e ms => nth (fst e) theta 0 - nth (fst e) theta0 0 = stride ms) ends mss ->
+  exists mss', Forall2 (stepped bits) (steps params) mss' /\ map stride mss' = differences theta0 theta.
 Proof.
-  intros params mss h. set (ss := Tolerances.steps ends params) in *.
+  intros params theta0 theta mss h d. unfold steps, differences. set (ss := Tolerances.steps ends params) in *.
+  assert (E : map (fun e => nth (fst e) theta 0 - nth (fst e) theta0 0) ends = map stride mss).
+  { clear h ss. induction d as [| e ms es mss h d IH]; [reflexivity |]. cbn [map]. rewrite h, IH. reflexivity. }
+  rewrite E. cbv zeta.
   assert (N : forall p, stepped bits (nth p ss []) (nth p mss [])) by (intro p; clear - h; revert p; induction h as [| s ms ss mss h1 h IH]; intros [| p]; cbn [nth]; auto; constructor).
   assert (D : forall p, nth p (map stride mss) 0 = stride (nth p mss [])) by (intro p; exact (map_nth stride mss [] p)).
   assert (F : forall p, nth p ss [] = [] \/ exists a c, nth p ss [] = snd (start a c)).
   { intro p. unfold ss, Tolerances.steps. destruct (Nat.lt_ge_cases p (length ends)) as [l | l]; [right | left; apply nth_overflow; rewrite map_length; exact l].
     set (f := fun e : nat * choice => snd (start (nth (fst e) params zero) (snd e))). rewrite (nth_indep _ _ (f (O, FromLeast))) by (rewrite map_length; exact l).
     rewrite map_nth. unfold f. eexists _, _. reflexivity. }
-  intros [p q]. unfold product, difference. cbn [fst snd]. rewrite !D. specialize (N p) as hp. destruct (Nat.eqb_spec p q) as [<- | n].
-  - destruct (F p) as [e | [a [c e]]]; rewrite e in *.
-    + inversion hp. exists []. split; [constructor | unfold stride; cbn; field].
-    + destruct (stride_square a c _ hp) as [m [r [h1 [h2 h3]]]]. rewrite h3. destruct (snd (start a c)) as [| s l] eqn:z; [destruct c; discriminate |]. cbn [hd] in h2.
-      exists [(m, r * r / 2)]. split; [constructor; [split; [exact h1 | apply halve_sound, mul_sound; exact h2] | constructor] | unfold stride; cbn; field].
-  - apply stepped_products; [exact hp | apply N].
-Qed.
-
-Lemma steps_sound : forall params theta0 theta mss, Forall2 (stepped bits) (Tolerances.steps ends params) mss ->
-  Forall2 (fun e ms => nth (fst e) theta 0 - nth (fst e) theta0 0 = stride ms) ends mss ->
-  exists mss', Forall2 (stepped bits) (steps params) mss' /\ map stride mss' = differences theta0 theta.
-Proof.
-  intros params theta0 theta mss h d. unfold steps, differences. rewrite (differences_are theta0 theta mss d). cbv zeta. pose proof (product_sound params mss h) as K. set (ss := Tolerances.steps ends params) in *.
+  assert (K : forall k, exists ms, stepped bits (product ss k) ms /\ stride ms = difference (map stride mss) k).
+  { intros [p q]. unfold product, difference. cbn [fst snd]. rewrite !D. specialize (N p) as hp. destruct (Nat.eqb_spec p q) as [<- | n].
+    - destruct (F p) as [e | [a [c e]]]; rewrite e in *.
+      + inversion hp. exists []. split; [constructor | unfold stride; cbn; field].
+      + destruct (stride_square a c _ hp) as [m [r [h1 [h2 h3]]]]. rewrite h3. destruct (snd (start a c)) as [| s l] eqn:z; [destruct c; discriminate |]. cbn [hd] in h2.
+        exists [(m, r * r / 2)]. split; [constructor; [split; [exact h1 | apply halve_sound, mul_sound; exact h2] | constructor] | unfold stride; cbn; field].
+    - apply stepped_products; [exact hp | apply N]. }
   assert (G : forall l, exists mss', Forall2 (stepped bits) (map (product ss) l) mss' /\ map stride mss' = map (difference (map stride mss)) l).
   { induction l as [| k l [mss' [h1 h2]]]; [exists []; split; [constructor | reflexivity] |]. destruct (K k) as [ms [k1 k2]]. exists (ms :: mss'). split; [constructor; assumption |]. cbn [map]. rewrite k2, h2. reflexivity. }
   destruct (G pairs) as [mss' [h1 h2]]. exists (mss ++ mss'). split; [apply Forall2_app; assumption |]. rewrite map_app, h2. reflexivity.

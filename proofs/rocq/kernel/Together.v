@@ -1,9 +1,9 @@
 (** * What several quantities change of a row together
 
-    Quantities of second order with one step change a row by shares t_j in [0, 1], two of them by t_j t_l, and one by
-    t_j^2 = t_j - t_j (1 - t_j).  The form of all these changes is affine in each t_j and in each t_j (1 - t_j), which is
-    in [0, 1/4]: so it is not less than at some vertex, and with a matrix R it is positive if it is so at all of them
-    ([together]).  R is then taken off in the place of each of them. *)
+    Quantities of second order in the middle of their tolerances change a row by t_j in [-1, 1], two of them by t_j t_l,
+    and one by t_j^2.  The form of all these changes is affine in each t_j and in each t_j^2, if these are numbers of
+    [0, 1] by themselves: so it is not less than at some vertex, and with a matrix R it is positive if it is so at all of
+    them ([together]).  R is then taken off in the place of each of them. *)
 
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert Require Import Fixed.
@@ -13,12 +13,12 @@ Import ListNotations.
 Local Open Scope R_scope.
 Local Notation is_in := Second.is_in.
 
-(** ** Subsets *)
+(** ** Signs *)
 
 Fixpoint at_parts (qs J : list nat) (holds : list nat -> bool) : bool :=
   match qs with [] => holds J | q :: qs' => at_parts qs' J holds && at_parts qs' (q :: J) holds end.
-(** 1 for what is in J, and as it is for the others. *)
-Definition put (J qs : list nat) (z : nat -> R) (p : nat) : R := if is_in p J then 1 else if is_in p qs then z p else 0.
+(** 1 for what is in J, -1 for what is not, and as it is for what is left. *)
+Definition put (J qs : list nat) (z : nat -> R) (p : nat) : R := if is_in p J then 1 else if is_in p qs then z p else -1.
 
 Lemma is_in_iff : forall p l, is_in p l = true <-> In p l.
 Proof. intros p l. unfold is_in. rewrite existsb_exists. split; [intros [q [i e]]; apply Nat.eqb_eq in e; subst; exact i | intro i; exists p; split; [exact i | apply Nat.eqb_refl]]. Qed.
@@ -29,9 +29,9 @@ Proof.
 Qed.
 
 Lemma parts_decide : forall (f : (nat -> R) -> R) z holds,
-  (forall q y y0 y1, (forall p, p <> q -> y0 p = y p /\ y1 p = y p) -> y0 q = 0 -> y1 q = 1 -> f y = (1 - y q) * f y0 + y q * f y1) ->
+  (forall q y y0 y1, (forall p, p <> q -> y0 p = y p /\ y1 p = y p) -> y0 q = -1 -> y1 q = 1 -> f y = (1 - y q) / 2 * f y0 + (1 + y q) / 2 * f y1) ->
   (forall J, holds J = true -> 0 < f (put J [] z)) ->
-  forall qs J, NoDup qs -> (forall q, In q qs -> is_in q J = false) -> (forall q, In q qs -> is_share (z q)) -> at_parts qs J holds = true -> 0 < f (put J qs z).
+  forall qs J, NoDup qs -> (forall q, In q qs -> is_in q J = false) -> (forall q, In q qs -> -1 <= z q <= 1) -> at_parts qs J holds = true -> 0 < f (put J qs z).
 Proof.
   intros f z holds affine H. induction qs as [| q qs IH]; intros J nd out hz h; [exact (H J h) |]. cbn [at_parts] in h. apply andb_true_iff in h as [h0 h1]. inversion nd as [| ? ? no nd']; subst.
   assert (A : 0 < f (put J qs z)) by (apply IH; [exact nd' | intros p i; apply out; right; exact i | intros p i; apply hz; right; exact i | exact h0]).
@@ -39,7 +39,8 @@ Proof.
   { apply IH; [exact nd' | | intros p i; apply hz; right; exact i | exact h1]. intros p i. cbn [Second.is_in existsb]. destruct (Nat.eqb_spec p q) as [-> |]; [contradiction | apply out; right; exact i]. }
   assert (nq : is_in q qs = false) by (destruct (is_in q qs) eqn:e; [apply is_in_iff in e; contradiction | reflexivity]).
   rewrite (affine q _ (put J qs z) (put (q :: J) qs z)).
-  - apply between_positive; try assumption. unfold put. rewrite (out q (or_introl eq_refl)). cbn [Second.is_in existsb]. rewrite Nat.eqb_refl. apply hz. left. reflexivity.
+  - assert (hq : -1 <= put J (q :: qs) z q <= 1) by (unfold put; rewrite (out q (or_introl eq_refl)); cbn [Second.is_in existsb]; rewrite Nat.eqb_refl; apply hz; left; reflexivity).
+    set (t := put J (q :: qs) z q) in *. replace ((1 - t) / 2) with (1 - (1 + t) / 2) by field. apply between_positive; try assumption. lra.
   - intros p n. unfold put. cbn [Second.is_in existsb]. destruct (Nat.eqb_spec p q); [contradiction | split; reflexivity].
   - unfold put. rewrite (out q (or_introl eq_refl)), nq. reflexivity.
   - unfold put. cbn [Second.is_in existsb]. rewrite Nat.eqb_refl. reflexivity.
@@ -50,25 +51,26 @@ Qed.
 Inductive kind := Alone | OfOne (p : nat) | OfTwo (p q : nat).
 Definition share (z : nat -> R) (k : kind) : R := match k with Alone => 0 | OfOne p => z p | OfTwo p q => z p * z q end.
 (** Without squares. *)
-Definition once (z : nat -> R) (k : kind) : R := match k with OfTwo p q => if Nat.eqb p q then z p else z p * z q | _ => share z k end.
+Definition once (z : nat -> R) (k : kind) : R := match k with OfTwo p q => if Nat.eqb p q then 0 else z p * z q | _ => share z k end.
 Definition is_together (k : kind) : bool := match k with Alone => false | _ => true end.
 Definition is_square (k : kind) : bool := match k with OfTwo p q => Nat.eqb p q | _ => false end.
-Definition is_of (J : list nat) (k : kind) : bool := match k with Alone => false | OfOne p => is_in p J | OfTwo p q => is_in p J && is_in q J end.
+Definition is_once (k : kind) : bool := is_together k && negb (is_square k).
+Definition is_plus (J : list nat) (k : kind) : bool := match k with Alone => true | OfOne p => is_in p J | OfTwo p q => Bool.eqb (is_in p J) (is_in q J) end.
 Definition quantities_of (k : kind) : list nat := match k with Alone => [] | OfOne p => [p] | OfTwo p q => [p; q] end.
 
-Lemma once_affine : forall k q y y0 y1, (forall p, p <> q -> y0 p = y p /\ y1 p = y p) -> y0 q = 0 -> y1 q = 1 -> once y k = (1 - y q) * once y0 k + y q * once y1 k.
+Lemma once_affine : forall k q y y0 y1, (forall p, p <> q -> y0 p = y p /\ y1 p = y p) -> y0 q = -1 -> y1 q = 1 -> once y k = (1 - y q) / 2 * once y0 k + (1 + y q) / 2 * once y1 k.
 Proof.
   intros k q y y0 y1 h h0 h1.
-  assert (P : forall p, y0 p = (if Nat.eqb p q then 0 else y p) /\ y1 p = (if Nat.eqb p q then 1 else y p)) by (intro p; destruct (Nat.eqb_spec p q) as [-> | n]; [split; assumption | exact (h p n)]).
-  destruct k as [| p | p r]; cbn [once share]; [ring | |].
-  - destruct (P p) as [-> ->]. destruct (Nat.eqb_spec p q) as [e |]; [rewrite e |]; ring.
-  - destruct (P p) as [-> ->]. destruct (P r) as [-> ->]. destruct (Nat.eqb_spec p r) as [e | n], (Nat.eqb_spec p q) as [e' |], (Nat.eqb_spec r q) as [e'' |]; subst; try congruence; ring.
+  assert (P : forall p, y0 p = (if Nat.eqb p q then -1 else y p) /\ y1 p = (if Nat.eqb p q then 1 else y p)) by (intro p; destruct (Nat.eqb_spec p q) as [-> | n]; [split; assumption | exact (h p n)]).
+  destruct k as [| p | p r]; cbn [once share]; [field | |].
+  - destruct (P p) as [-> ->]. destruct (Nat.eqb_spec p q) as [e |]; [rewrite e |]; field.
+  - destruct (P p) as [-> ->]. destruct (P r) as [-> ->]. destruct (Nat.eqb_spec p r) as [e | n], (Nat.eqb_spec p q) as [e' |], (Nat.eqb_spec r q) as [e'' |]; subst; try congruence; field.
 Qed.
-Lemma once_at : forall J z k, once (put J [] z) k = if is_of J k then 1 else 0.
+Lemma once_at : forall J z k, once (put J [] z) k = if is_once k then if is_plus J k then 1 else -1 else 0.
 Proof.
-  assert (P : forall J z p, put J [] z p = if is_in p J then 1 else 0) by reflexivity.
-  intros J z [| p | p q]; cbn [once share is_of]; rewrite ?P; [reflexivity | reflexivity |].
-  destruct (Nat.eqb_spec p q) as [<- |]; [destruct (is_in p J) | destruct (is_in p J), (is_in q J)]; cbn [andb]; ring.
+  assert (P : forall J z p, put J [] z p = if is_in p J then 1 else -1) by reflexivity.
+  intros J z [| p | p q]; unfold is_once; cbn [once share is_together is_square is_plus andb negb]; rewrite ?P; [reflexivity | reflexivity |].
+  destruct (Nat.eqb p q); [reflexivity |]. cbn [negb]. destruct (is_in p J), (is_in q J); cbn [Bool.eqb]; ring.
 Qed.
 Lemma once_same : forall qs z k, (forall p, In p (quantities_of k) -> In p qs) -> once (put [] qs z) k = once z k.
 Proof.
@@ -92,7 +94,7 @@ Definition holds_change (c : change) (C : list R * R) : Prop := Forall2 contains
 Definition worth (first : nat) (e v : list R) (c : list R * R) : R := 2 * dot e v * dot (fst c) v + snd c * norm_from first v.
 
 Definition plus (c d : change) : change := (merge (fun a => a) (fun a => a) add (fst c) (fst d), add (snd c) (snd d)).
-Definition less_quarter (c : change) : change := let q a := neg (halve (halve a)) in (map q (fst c), q (snd c)).
+Definition minus (c : change) : change := (map neg (fst c), neg (snd c)).
 Lemma plus_sound : forall c d C D, holds_change c C -> holds_change d D -> exists S, holds_change (plus c d) S /\ forall f e v, worth f e v S = worth f e v C + worth f e v D.
 Proof.
   intros c d [C n] [D k] [h1 h2] [k1 k2]. exists (comb 1 1 C D, n + k). split; [split |].
@@ -100,14 +102,12 @@ Proof.
   - apply add_sound; assumption.
   - intros f e v. unfold worth. cbn [fst snd]. rewrite dot_comb. ring.
 Qed.
-Lemma quarter_sound : forall c C, holds_change c C -> exists S, holds_change (less_quarter c) S /\ forall f e v, worth f e v S = - (worth f e v C / 4).
+Lemma minus_sound : forall c C, holds_change c C -> exists S, holds_change (minus c) S /\ forall f e v, worth f e v S = - worth f e v C.
 Proof.
-  intros c [C n] [h1 h2]. cbn [fst snd] in *. assert (Q : forall a x, contains a x -> contains (neg (halve (halve a))) (- / 4 * x)).
-  { intros a x h. replace (- / 4 * x) with (- (x / 2 / 2)) by field. apply neg_sound, halve_sound, halve_sound, h. }
-  exists (map (Rmult (- / 4)) C, - / 4 * n). split; [split |].
-  - cbn [less_quarter fst]. eapply map_related; [| exact h1]. exact Q.
-  - apply Q, h2.
-  - intros f e v. unfold worth. cbn [fst snd]. rewrite dot_map. field.
+  intros c [C n] [h1 h2]. cbn [fst snd] in *. exists (map (Rmult (-1)) C, - n). split; [split |].
+  - cbn [minus fst]. eapply map_related; [| exact h1]. intros a x h. replace (-1 * x) with (- x) by ring. apply neg_sound, h.
+  - apply neg_sound, h2.
+  - intros f e v. unfold worth. cbn [fst snd]. rewrite dot_map. ring.
 Qed.
 
 (** With any of these more. *)
@@ -145,10 +145,10 @@ Qed.
 
 (** No more than six quantities. *)
 Definition most_together : nat := 6.
-Definition part_of (J : list nat) (cs : list (kind * change)) : change := fold_right (fun c s => if is_of J (fst c) then plus (snd c) s else s) ([], zero) cs.
+Definition part_of (J : list nat) (cs : list (kind * change)) : change := fold_right (fun c s => if is_once (fst c) then plus (if is_plus J (fst c) then snd c else minus (snd c)) s else s) ([], zero) cs.
 Definition is_not_less (n first : nat) (r : triangle) (e : list fixed) (cs : list (kind * change)) : bool :=
   let qs := nodup Nat.eq_dec (flat_map (fun c => quantities_of (fst c)) cs) in
-  let squares := map (fun c => less_quarter (snd c)) (filter (fun c => is_square (fst c)) cs) in
+  let squares := map snd (filter (fun c => is_square (fst c)) cs) in
   Nat.leb (length qs) most_together && at_parts qs [] (fun J => at_sums (part_of J cs) squares (fun c => Solve.is_definite bits n (form_with n first r e c))).
 
 Definition are_of (cs : list (kind * change)) (ps : list (kind * (list R * R))) : Prop := Forall2 (fun c p => fst c = fst p /\ holds_change (snd c) (snd p)) cs ps.
@@ -156,36 +156,37 @@ Lemma part_of_sound : forall J z cs ps, are_of cs ps -> exists C, holds_change (
 Proof.
   intros J z cs ps h. induction h as [| [k c] [k' P] cs ps [e h1] h [C [h2 h3]]]; cbn [fst snd] in *.
   - exists ([], 0). split; [split; [constructor | apply zero_sound] |]. intros f e v. unfold worth, weigh. cbn. ring.
-  - subst k'. cbn [part_of fold_right fst snd]. fold (part_of J cs). destruct (is_of J k) eqn:o.
-    + destruct (plus_sound c _ P C h1 h2) as [S [hs es]]. exists S. split; [exact hs |]. intros f e v. rewrite es, h3. unfold weigh. cbn [fold_right fst snd]. rewrite once_at, o. ring.
-    + exists C. split; [exact h2 |]. intros f e v. rewrite h3. unfold weigh. cbn [fold_right fst snd]. rewrite once_at, o. ring.
+  - subst k'. cbn [part_of fold_right fst snd]. fold (part_of J cs). assert (W : forall f e v, weigh (once (put J [] z)) ((k, P) :: ps) (worth f e v) = (if is_once k then if is_plus J k then 1 else -1 else 0) * worth f e v P + worth f e v C)
+      by (intros f e v; rewrite h3; unfold weigh; cbn [fold_right fst snd]; rewrite once_at; reflexivity).
+    destruct (is_once k); [| exists C; split; [exact h2 | intros f e v; rewrite W; ring]].
+    assert (Q : exists S, holds_change (if is_plus J k then c else minus c) S /\ forall f e v, worth f e v S = (if is_plus J k then 1 else -1) * worth f e v P).
+    { destruct (is_plus J k); [exists P; split; [exact h1 | intros; ring] |]. destruct (minus_sound c P h1) as [S [hs es]]. exists S. split; [exact hs | intros; rewrite es; ring]. }
+    destruct Q as [S [hs es]]. destruct (plus_sound _ _ S C hs h2) as [T [ht et]]. exists T. split; [exact ht |]. intros f e v. rewrite et, es, W. reflexivity.
 Qed.
-Lemma squares_sound : forall z cs ps, (forall p, is_share (z p)) -> are_of cs ps -> Forall (fun c => is_together (fst c) = true) cs ->
-  exists ks, Forall2 (fun q k => is_share (fst k) /\ holds_change q (snd k)) (map (fun c => less_quarter (snd c)) (filter (fun c => is_square (fst c)) cs)) ks /\
+Lemma squares_sound : forall z cs ps, (forall p, -1 <= z p <= 1) -> are_of cs ps ->
+  exists ks, Forall2 (fun q k => is_share (fst k) /\ holds_change q (snd k)) (map snd (filter (fun c => is_square (fst c)) cs)) ks /\
     forall f e v, weigh (share z) ps (worth f e v) = weigh (once z) ps (worth f e v) + sum_of ks (worth f e v).
 Proof.
-  intros z cs ps hz h. induction h as [| [k c] [k' P] cs ps [e h1] h IH]; intro all; cbn [fst snd] in *.
+  intros z cs ps hz h. induction h as [| [k c] [k' P] cs ps [e h1] h [ks [h2 h3]]]; cbn [fst snd] in *.
   - exists []. split; [constructor |]. intros. unfold weigh, sum_of. cbn. ring.
-  - subst k'. inversion all as [| ? ? a0 a1]; subst. destruct (IH a1) as [ks [h2 h3]]. cbn [filter fst snd].
-    destruct (is_square k) eqn:s.
-    + destruct k as [| | p q]; try discriminate. cbn [is_square] in s. apply Nat.eqb_eq in s as <-. destruct (quarter_sound c P h1) as [S [hs es]].
-      exists ((4 * (z p * (1 - z p)), S) :: ks). split.
-      * cbn [map snd]. constructor; [| exact h2]. cbn [fst snd]. split; [| exact hs]. destruct (hz p) as [z0 z1]. pose proof (pow2_ge_0 (2 * z p - 1)). split; nra.
-      * intros f e v. unfold weigh, sum_of in *. cbn [fold_right fst snd share once]. rewrite h3, es, Nat.eqb_refl. field.
+  - subst k'. cbn [filter fst snd]. destruct (is_square k) eqn:s.
+    + destruct k as [| | p q]; try discriminate. cbn [is_square] in s. apply Nat.eqb_eq in s as <-. exists ((z p * z p, P) :: ks). split.
+      * cbn [map snd]. constructor; [| exact h2]. cbn [fst snd]. split; [| exact h1]. specialize (hz p). split; nra.
+      * intros f e v. unfold weigh, sum_of in *. cbn [fold_right fst snd share once]. rewrite h3, Nat.eqb_refl. ring.
     + exists ks. split; [exact h2 |]. intros f e v. unfold weigh, sum_of in *. cbn [fold_right fst snd]. rewrite h3.
       assert (E : share z k = once z k) by (destruct k as [| | p q]; cbn [once share is_square] in *; rewrite ?s; reflexivity). rewrite E. ring.
 Qed.
 
-Theorem together : forall n first r R0 e E cs ps z v, is_not_less n first r e cs = true -> triangle_in r R0 -> Forall2 contains e E -> are_of cs ps -> Forall (fun c => is_together (fst c) = true) cs ->
-  (forall p, is_share (z p)) -> length v = n -> nonzero v -> 0 < quad R0 v + weigh (share z) ps (worth first E v).
+Theorem together : forall n first r R0 e E cs ps z v, is_not_less n first r e cs = true -> triangle_in r R0 -> Forall2 contains e E -> are_of cs ps -> (forall p, -1 <= z p <= 1) ->
+  length v = n -> nonzero v -> 0 < quad R0 v + weigh (share z) ps (worth first E v).
 Proof.
-  intros n first r R0 e E cs ps z v h hr he hc all hz lv nz. unfold is_not_less in h. cbv zeta in h. apply andb_true_iff in h as [_ h]. set (qs := nodup _ _) in h.
-  destruct (squares_sound z cs ps hz hc all) as [ks [h1 h2]]. rewrite h2. set (f := fun y => quad R0 v + weigh (once y) ps (worth first E v) + sum_of ks (worth first E v)).
+  intros n first r R0 e E cs ps z v h hr he hc hz lv nz. unfold is_not_less in h. cbv zeta in h. apply andb_true_iff in h as [_ h]. set (qs := nodup _ _) in h.
+  destruct (squares_sound z cs ps hz hc) as [ks [h1 h2]]. rewrite h2. set (f := fun y => quad R0 v + weigh (once y) ps (worth first E v) + sum_of ks (worth first E v)).
   assert (F : 0 < f (put [] qs z)).
   { refine (parts_decide f z _ _ _ qs [] _ _ _ h).
-    - intros q y y0 y1 h3 h4 h5. unfold f. assert (W : weigh (once y) ps (worth first E v) = (1 - y q) * weigh (once y0) ps (worth first E v) + y q * weigh (once y1) ps (worth first E v)).
-      { clear - h3 h4 h5. unfold weigh. induction ps as [| p ps IH]; cbn [fold_right]; [ring |]. rewrite IH, (once_affine (fst p) q y y0 y1 h3 h4 h5). ring. }
-      rewrite W. ring.
+    - intros q y y0 y1 h3 h4 h5. unfold f. assert (W : weigh (once y) ps (worth first E v) = (1 - y q) / 2 * weigh (once y0) ps (worth first E v) + (1 + y q) / 2 * weigh (once y1) ps (worth first E v)).
+      { clear - h3 h4 h5. unfold weigh. induction ps as [| p ps IH]; cbn [fold_right]; [field |]. rewrite IH, (once_affine (fst p) q y y0 y1 h3 h4 h5). field. }
+      rewrite W. field.
     - intros J hJ. destruct (part_of_sound J z cs ps hc) as [C [k1 k2]]. unfold f. rewrite <- k2.
       refine (sums_decide (quad R0 v) first E v _ _ _ _ h1 _ C hJ k1). intros c C' hd hC. exact (form_with_sound n first r R0 e E c C' v hd hr he hC lv nz).
     - apply NoDup_nodup.
@@ -201,24 +202,25 @@ Qed.
 
 Fixpoint triangle_over {A : Type} (n : nat) (l : list A) : list (list A) := match n with O => [] | S k => firstn n l :: triangle_over k (skipn n l) end.
 Definition less_group (w : list fixed) (across : option (list fixed)) (first : nat) (e : list fixed) (places : N) (l : list Z) (cs : list (kind * change)) (t : triangle) : option triangle :=
-  match l with
-  | [] => less_all bits w across first e (map snd cs) t
-  | _ =>
+  match l, filter (fun c => is_together (fst c)) cs with
+  | [], [] => less_all bits w across first e (map snd cs) t
+  | [], _ => None
+  | _, own =>
       let n := length w in let r := triangle_over n (map (fun x => Arithmetic.dyadic x places one) l) in
-      if Nat.eqb (2 * length l) (n * (n + 1)) && Nat.eqb (length e) n && is_not_less n first r e (filter (fun c => is_together (fst c)) cs) then
+      if Nat.eqb (2 * length l) (n * (n + 1)) && Nat.eqb (length e) n && is_not_less n first r e own then
         less_all bits w across first e (map snd (filter (fun c => negb (is_together (fst c))) cs)) (triangle_add t (map (map neg) r))
       else None
   end.
 
-Definition is_so (z : nat -> R) (k : kind) (m : R) : Prop := match k with Alone => True | _ => m = share z k end.
+Definition is_so (z : nat -> R) (k : kind) (m : R) : Prop := match k with Alone => is_share m | _ => m = share z k end.
 Lemma less_group_sound : forall w W across first e E places l z cs ms t t' S, less_group w across first e places l cs t = Some t' -> may_cross bits across first -> triangle_in t S ->
-  Forall2 contains w W -> Forall2 contains e E -> (forall p, is_share (z p)) ->
-  Forall2 (fun c m => is_so z (fst c) (fst m) /\ is_share (fst m) /\ holds_change (snd c) (snd m)) cs ms ->
+  Forall2 contains w W -> Forall2 contains e E -> (forall p, -1 <= z p <= 1) ->
+  Forall2 (fun c m => is_so z (fst c) (fst m) /\ holds_change (snd c) (snd m)) cs ms ->
   exists S', triangle_in t' S' /\ forall v, length v = length w -> nonzero v -> quad S' v <= quad S v + sum_of ms (worth first E v).
 Proof.
   intros w W across first e E places l z cs ms t t' S h ok hS hw he hz hc. unfold less_group in h. destruct l as [| x l].
-  - destruct (less_all_sound bits w W across first e E (map snd cs) ms t t' S h ok hS hw he) as [S' [h1 h2]].
-    + clear - hc. induction hc as [| c m cs ms [_ h] hc IH]; cbn [map]; constructor; [exact h | exact IH].
+  - destruct (filter _ cs) as [| c0 cs0] eqn:no in h; [| discriminate]. destruct (less_all_sound bits w W across first e E (map snd cs) ms t t' S h ok hS hw he) as [S' [h1 h2]].
+    + clear - hc no. induction hc as [| [k c] m cs ms [h1 h2] hc IH]; cbn [map]; constructor; cbn [filter fst] in *; destruct k; try discriminate; [split; assumption | exact (IH no)].
     + exists S'. split; [exact h1 |]. intros v lv _. exact (h2 v lv).
   - cbv zeta in h. set (n := length w) in *. set (r := triangle_over n _) in h. destruct (_ && is_not_less n first r e _) eqn:g in h; [| discriminate]. apply andb_true_iff in g as [_ g].
     assert (hr : triangle_in r (triangle_over n (map (Y_value places) (x :: l)))).
@@ -235,26 +237,25 @@ Proof.
     assert (Two : exists ps ms', are_of (filter (fun c => is_together (fst c)) cs) ps /\
       Forall2 (fun c m => is_share (fst m) /\ Forall2 contains (fst c) (fst (snd m)) /\ contains (snd c) (snd (snd m))) (map snd (filter (fun c => negb (is_together (fst c))) cs)) ms' /\
       forall h, sum_of ms h = weigh (share z) ps h + sum_of ms' h).
-    { clear - hc. induction hc as [| [k c] [m C] cs ms [h1 [h2 h3]] hc [ps [ms' [k1 [k2 k3]]]]]; cbn [filter fst snd] in *.
+    { clear - hc. induction hc as [| [k c] [m C] cs ms [h1 h2] hc [ps [ms' [k1 [k2 k3]]]]]; cbn [filter fst snd] in *.
       - exists [], []. split; [constructor |]. split; [constructor |]. intro. unfold weigh, sum_of. cbn. ring.
       - destruct (is_together k) eqn:s; cbn [negb].
-        + exists ((k, C) :: ps), ms'. split; [constructor; [split; [reflexivity | exact h3] | exact k1] |]. split; [exact k2 |]. intro f. specialize (k3 f). unfold weigh, sum_of in *. cbn [fold_right fst snd]. rewrite k3.
+        + exists ((k, C) :: ps), ms'. split; [constructor; [split; [reflexivity | exact h2] | exact k1] |]. split; [exact k2 |]. intro f. specialize (k3 f). unfold weigh, sum_of in *. cbn [fold_right fst snd]. rewrite k3.
           assert (E : m = share z k) by (destruct k; [discriminate | exact h1 ..]). rewrite E. ring.
-        + exists ps, ((m, C) :: ms'). split; [exact k1 |]. split; [cbn [map snd]; constructor; [split; [exact h2 | exact h3] | exact k2] |]. intro f. specialize (k3 f). unfold weigh, sum_of in *. cbn [fold_right fst snd]. rewrite k3. ring. }
+        + exists ps, ((m, C) :: ms'). split; [exact k1 |]. split; [cbn [map snd]; constructor; [split; [destruct k; [exact h1 | discriminate ..] | exact h2] | exact k2] |]. intro f. specialize (k3 f). unfold weigh, sum_of in *. cbn [fold_right fst snd]. rewrite k3. ring. }
     destruct Two as [ps [ms' [k1 [k2 k3]]]].
     assert (hT : triangle_in (triangle_add t (map (map neg) r)) (tcomb 1 1 S (map (map (Rmult (- 1))) R0))).
     { apply triangle_add_sound; [exact hS |]. eapply map_related; [| exact hr]. intros a b hab. eapply map_related; [| exact hab]. intros y u hy. replace (- 1 * u) with (- u) by ring. apply neg_sound, hy. }
     destruct (less_all_sound bits w W across first e E _ ms' _ t' _ h ok hT hw he k2) as [S' [h1 h2]]. exists S'. split; [exact h1 |]. intros v lv nz. specialize (h2 v lv).
     rewrite quad_tcomb, quad_map in h2.
-    assert (all : Forall (fun c : kind * change => is_together (fst c) = true) (filter (fun c => is_together (fst c)) cs)) by (apply Forall_forall; intros c i; apply filter_In in i; apply i).
-    pose proof (together n first r R0 e E _ ps z v g hr he k1 all hz lv nz) as P. rewrite k3. change (sum_of ms' (fun c => 2 * dot E v * dot (fst c) v + snd c * norm_from first v)) with (sum_of ms' (worth first E v)) in h2. lra.
+    pose proof (together n first r R0 e E _ ps z v g hr he k1 hz lv nz) as P. rewrite k3. change (sum_of ms' (fun c => 2 * dot E v * dot (fst c) v + snd c * norm_from first v)) with (sum_of ms' (worth first E v)) in h2. lra.
 Qed.
 
 (** ** Rows of which some changes are looked at together *)
 
 Definition grouped : Type := (list fixed * fixed) * list (kind * (list fixed * fixed * fixed)).
 Definition grouped_in (z : nat -> R) (i : grouped) (r : list R * R * R) : Prop :=
-  exists a d ms, weighted_by bits (fst i, map snd (snd i)) r a d ms /\ Forall2 (fun k m => is_so z k (fst m)) (map fst (snd i)) ms.
+  exists a d ms, weighted_by bits (fun _ => True) (fst i, map snd (snd i)) r a d ms /\ Forall2 (fun k m => is_so z k (fst m)) (map fst (snd i)) ms.
 Lemma both_related : forall (A B C : Type) (P : A -> C -> Prop) (Q : B -> C -> Prop) cs ms, Forall2 P (map fst cs) ms -> Forall2 Q (map snd cs) ms -> Forall2 (fun c m => P (fst c) m /\ Q (snd c) m) cs ms.
 Proof.
   intros A B C P Q. induction cs as [| c cs IH]; intros ms h k; inversion h; subst; inversion k; subst; constructor; [split; assumption | apply IH; assumption].
@@ -274,7 +275,7 @@ Fixpoint lower_grouped (w : list fixed) (across : option (list fixed)) (pl place
   | _, _ => None
   end.
 
-Lemma lower_grouped_sound : forall w W across pl places Y z i r start S T, Forall2 contains w W -> may_cross bits across 0 -> (forall p, is_share (z p)) -> Forall2 (fun i r => grouped_in z (snd i) r) i r -> triangle_in start S ->
+Lemma lower_grouped_sound : forall w W across pl places Y z i r start S T, Forall2 contains w W -> may_cross bits across 0 -> (forall p, -1 <= z p <= 1) -> Forall2 (fun i r => grouped_in z (snd i) r) i r -> triangle_in start S ->
   lower_grouped w across pl places Y i start = Some T ->
   exists U, triangle_in T U /\ forall v, length v = length w -> nonzero v -> quad U v <= quad S v + (form (lower_weights places Y v) (map fst r) v - changed r * dot v v).
 Proof.
@@ -287,9 +288,9 @@ Proof.
   assert (hY : Forall2 contains (map (fun n => Arithmetic.dyadic n places one) y) (map (Y_value places) y)).
   { clear. induction y as [| n y I]; cbn [map]; constructor; [| exact I]. replace (Y_value places n) with (Y_value places n * 1) by ring. apply Arithmetic.dyadic_sound, integer_sound. }
   set (half := fun c : list R * R * R => (map (Rmult (/ 2)) (comb 2 (- snd (fst c)) (fst (fst c)) (map (Y_value places) y)), - snd c)).
-  assert (hC : Forall2 (fun c m => is_so z (fst c) (fst m) /\ is_share (fst m) /\ holds_change (snd c) (snd m))
+  assert (hC : Forall2 (fun c m => is_so z (fst c) (fst m) /\ holds_change (snd c) (snd m))
     (map (fun c => (fst c, (map halve (residual places (fst (fst (snd c))) (snd (fst (snd c))) y), neg (snd (snd c))))) cs) (map (fun m => (fst m, half (snd m))) ms)).
-  { eapply map_related; [| exact (both_related _ _ _ _ _ _ _ hk hm)]. intros c m [h0 [h1 [h2 [h3 h4]]]]. cbn [fst snd]. split; [exact h0 |]. split; [exact h1 |]. unfold half, holds_change. cbn [fst snd]. split; [| apply neg_sound, h4].
+  { eapply map_related; [| exact (both_related _ _ _ _ _ _ _ hk hm)]. intros c m [h0 [_ [h2 [h3 h4]]]]. cbn [fst snd]. split; [exact h0 |]. unfold half, holds_change. cbn [fst snd]. split; [| apply neg_sound, h4].
     eapply map_related; [| apply residual_sound; eassumption]. intros b x hb. replace (/ 2 * x) with (x / 2) by (unfold Rdiv; ring). apply halve_sound, hb. }
   destruct (less_group_sound _ _ _ _ _ _ _ _ z _ _ _ _ _ el ok hT hw hY hz hC) as [S1 [h1 q1]]. destruct (IH i r t S1 h h1 u) as [U [hU q]]. exists U. split; [exact hU |].
   intros v lv nz. specialize (q v lv nz). specialize (q1 v lv nz). cbn [lower_weights map form changed fold_right fst snd]. fold (lower_weights places Y v). fold (changed r). rewrite quad_tcomb, quad_outer, dot_comb in q1.
@@ -306,9 +307,9 @@ Fixpoint upper_grouped (w : list fixed) (c2 : fixed) (pl : N) (r : list (list Z 
   | [] => Some start
   | (l, ((a, d), cs)) :: r' =>
       let bordered := (lower_end d :: a) :: start in
-      let lessened := match cs with
-        | [] => Some bordered
-        | _ => if (0 <? lo d)%Z then
+      let lessened := match l, cs with
+        | [], [] => Some bordered
+        | _, _ => if (0 <? lo d)%Z then
             less_group (neg (Arithmetic.ratio (along bits a w) one d) :: w) None 1 (one :: map (fun _ => zero) a) pl l
               (map (fun c => (fst c, (halve (snd (fst (snd c))) :: fst (fst (snd c)), mul bits c2 (snd (snd c))))) cs) bordered
             else None
@@ -319,7 +320,7 @@ Fixpoint upper_grouped (w : list fixed) (c2 : fixed) (pl : N) (r : list (list Z 
       end
   end.
 
-Lemma upper_grouped_sound : forall w W c2 c pl z i r start S T, Forall2 contains w W -> contains c2 c -> (forall p, is_share (z p)) -> Forall2 (fun i r => grouped_in z (snd i) r) i r -> triangle_in start S ->
+Lemma upper_grouped_sound : forall w W c2 c pl z i r start S T, Forall2 contains w W -> contains c2 c -> (forall p, -1 <= z p <= 1) -> Forall2 (fun i r => grouped_in z (snd i) r) i r -> triangle_in start S ->
   upper_grouped w c2 pl i start = Some T ->
   exists U, triangle_in T U /\ forall v x, length v = length w -> nonzero v -> quad U v <= quad S v + (form (upper_weights x) (map fst r) v + c * changed r * dot v v).
 Proof.
@@ -331,16 +332,18 @@ Proof.
     destruct (eliminated bits t) as [t2 |] eqn:e2; [| discriminate].
     assert (L : exists S1, triangle_in t S1 /\ forall y v, length v = length w -> nonzero v ->
       quad S1 (y :: v) <= g * y ^ 2 + 2 * y * dot a0 v + quad S v + (sum_of ms (fun c => 2 * y * dot (fst (fst c)) v + y ^ 2 * snd (fst c)) + c * sum_of ms snd * dot v v)).
-    { destruct cs as [| b cs].
-      - inversion hm; subst. injection el as <-. exists ((g :: a0) :: S). split; [exact hB |]. intros y v _ _. cbn [quad row_form sum_of fold_right]. lra.
+    { match type of el with ?x = _ => assert (Case : (l = [] /\ cs = [] /\ t = (lower_end d :: a) :: start) \/ (if (0 <? lo d)%Z then less_group (neg (Arithmetic.ratio (along bits a w) one d) :: w) None 1 (one :: map (fun _ => zero) a) pl l
+        (map (fun c => (fst c, (halve (snd (fst (snd c))) :: fst (fst (snd c)), mul bits c2 (snd (snd c))))) cs) ((lower_end d :: a) :: start) else None) = Some t)
+        by (destruct l; [destruct cs; [left; injection el as <-; auto |] |]; right; exact el) end. clear el. destruct Case as [[_ [-> ->]] | el].
+      - inversion hm; subst. exists ((g :: a0) :: S). split; [exact hB |]. intros y v _ _. cbn [quad row_form sum_of fold_right]. lra.
       - destruct (0 <? lo d)%Z eqn:p; [| discriminate]. apply Z.ltb_lt in p.
         assert (hE : Forall2 contains (one :: map (fun _ => zero) a) (1 :: map (fun _ => 0) a)).
         { constructor; [apply integer_sound |]. clear. induction a; cbn; constructor; auto using zero_sound. }
         assert (hW : Forall2 contains (neg (Arithmetic.ratio (along bits a w) one d) :: w) (- (dot a0 W * 1 / d0) :: W)).
         { constructor; [| exact hw]. apply neg_sound, Arithmetic.ratio_sound; [exact p | apply Toward.along_sound; assumption | apply integer_sound | exact hd]. }
-        assert (hC : Forall2 (fun c m => is_so z (fst c) (fst m) /\ is_share (fst m) /\ holds_change (snd c) (snd m))
-          (map (fun c => (fst c, (halve (snd (fst (snd c))) :: fst (fst (snd c)), mul bits c2 (snd (snd c))))) (b :: cs)) (map (fun m => (fst m, (snd (fst (snd m)) / 2 :: fst (fst (snd m)), c * snd (snd m)))) ms)).
-        { eapply map_related; [| exact (both_related _ _ _ _ _ _ _ hk hm)]. intros c' m' [h0 [h1 [h2 [h3 h4]]]]. unfold holds_change. cbn [fst snd]. split; [exact h0 |]. split; [exact h1 |].
+        assert (hC : Forall2 (fun c m => is_so z (fst c) (fst m) /\ holds_change (snd c) (snd m))
+          (map (fun c => (fst c, (halve (snd (fst (snd c))) :: fst (fst (snd c)), mul bits c2 (snd (snd c))))) cs) (map (fun m => (fst m, (snd (fst (snd m)) / 2 :: fst (fst (snd m)), c * snd (snd m)))) ms)).
+        { eapply map_related; [| exact (both_related _ _ _ _ _ _ _ hk hm)]. intros c' m' [h0 [_ [h2 [h3 h4]]]]. unfold holds_change. cbn [fst snd]. split; [exact h0 |].
           split; [constructor; [apply halve_sound, h3 | exact h2] | apply mul_sound; assumption]. }
         destruct (less_group_sound _ _ None _ _ _ _ _ z _ _ _ _ _ el I hB hW hE hz hC) as [S1 [h1 q]]. exists S1. split; [exact h1 |]. intros y v lv nz.
         assert (nz' : nonzero (y :: v)) by (unfold nonzero in *; cbn [dot]; pose proof (Rle_0_sqr y) as Q; unfold Rsqr in Q; lra). specialize (q (y :: v) ltac:(cbn [length]; congruence) nz').
@@ -364,78 +367,96 @@ Proof.
     + specialize (q v xs lv nz). rewrite quad_schur in q by lra. specialize (K y). fold (upper_weights xs). lra.
 Qed.
 
-(** ** Rows as slopes: a change of which all entries are still is of none *)
+(** ** Rows as slopes: a change of which all entries are still is of none, and all are where there is no R *)
 
-Fixpoint kinds_for (steps : list (list fixed)) (kinds : list kind) (p : nat) (r : list (multi slope) * multi slope) : list kind :=
-  match steps with
+Fixpoint kinds_for (l : list Z) (kinds : list kind) (p : nat) (r : list (multi slope) * multi slope) : list kind :=
+  match kinds with
   | [] => []
-  | rs :: steps' =>
-      let k := if forallb (fun q => is_still (nth p (snd q) (constant zero))) (snd r :: fst r) then Alone else hd Alone kinds in
-      map (fun _ => k) rs ++ kinds_for steps' (tl kinds) (S p) r
+  | k :: kinds' =>
+      (match l with [] => Alone | _ => if forallb (fun q => is_still (nth p (snd q) (constant zero))) (snd r :: fst r) then Alone else k end) :: kinds_for l kinds' (S p) r
   end.
+(** Of what is looked at together the first step alone: each other one is this or minus this. *)
+Definition first_of (k : kind) (rs : list fixed) : list fixed := if is_together k then firstn 1 rs else rs.
+Definition firsts (kinds : list kind) (steps : list (list fixed)) : list (list fixed) := map (fun p => first_of (fst p) (snd p)) (combine kinds steps).
+Definition kinds_of (kinds : list kind) (steps : list (list fixed)) : list kind := flat_map (fun p => map (fun _ => fst p) (first_of (fst p) (snd p))) (combine kinds steps).
 Definition grouped_at (places : N) (s : list bool) (steps : list (list fixed)) (ns : list Z) (kinds : list kind) (r : list (multi slope) * multi slope) : grouped :=
-  let w := weighted_at bits places s steps ns r in (fst w, combine kinds (snd w)).
+  let w := weighted_at bits places s (firsts kinds steps) ns r in (fst w, combine (kinds_of kinds steps) (snd w)).
 
-Definition are_so (z : nat -> R) (kinds : list kind) (mss : list (list (R * R))) : Prop := Forall2 (fun k ms => k = Alone \/ exists y, ms = [(share z k, y)]) kinds mss.
-Lemma kinds_for_so : forall z r steps mss, Forall2 (stepped bits) steps mss -> forall kinds p, are_so z kinds mss -> Forall2 (is_so z) (kinds_for steps kinds p r) (map fst (concat mss)).
+Definition are_so (z : nat -> R) (kinds : list kind) (steps : list (list fixed)) (ds : list R) : Prop :=
+  Forall2 (fun k s => k = Alone \/ exists y, Forall2 contains (firstn 1 (fst s)) [y] /\ snd s = share z k * y) kinds (combine steps ds).
+Lemma kinds_for_so : forall z l r steps ds kinds p, are_so z kinds steps ds -> are_so z (kinds_for l kinds p r) steps ds.
 Proof.
-  intros z r steps mss h. induction h as [| rs ms steps mss h1 h IH]; intros kinds p hk; cbn [kinds_for concat map]; [constructor |].
-  inversion hk as [| k ms' kinds' mss' [e | [y e]] hk']; subst; cbn [hd tl]; rewrite map_app; (apply Forall2_app; [| exact (IH kinds' _ hk')]).
-  - destruct (forallb _ _); clear - h1; induction h1; cbn [map]; constructor; try exact I; assumption.
-  - inversion h1 as [| ? ? ? ? _ h2]; subst. inversion h2; subst. cbn [map fst]. constructor; [| constructor]. destruct (forallb _ _); [exact I | destruct k; [exact I | reflexivity ..]].
+  intros z l r steps ds kinds p h. revert p. unfold are_so in *. induction h as [| k s kinds ss h1 h IH]; intro p; cbn [kinds_for]; constructor; [| apply IH].
+  destruct l; [left; reflexivity |]. destruct (forallb _ _); [left; reflexivity | exact h1].
+Qed.
+Lemma firsts_so : forall z steps mss, Forall2 (stepped bits) steps mss -> forall kinds, are_so z kinds steps (map stride mss) ->
+  exists mss', Forall2 (Forall2 (fun r (m : R * R) => True /\ contains r (snd m))) (firsts kinds steps) mss' /\ map stride mss' = map stride mss /\ Forall2 (is_so z) (kinds_of kinds steps) (map fst (concat mss')).
+Proof.
+  intros z steps mss h. unfold are_so, firsts, kinds_of. induction h as [| rs ms steps mss h1 h IH]; intros kinds hk; cbn [map combine] in hk; inversion hk as [| k s kinds' ss k1 hk']; subst.
+  - exists []. repeat constructor.
+  - destruct (IH kinds' hk') as [mss' [h2 [h3 h4]]]. cbn [fst snd] in k1. cbn [combine map flat_map fst snd]. unfold first_of at 1 3. destruct (is_together k) eqn:t.
+    + destruct k1 as [-> | [y [k1 k2]]]; [discriminate |]. exists ([(share z k, y)] :: mss'). destruct rs as [| r rs]; cbn [firstn] in *; inversion k1 as [| ? ? ? ? k3 _]; subst. split; [| split].
+      * constructor; [| exact h2]. constructor; [split; [exact I | exact k3] | constructor].
+      * cbn [map]. rewrite h3, k2. f_equal. unfold stride. cbn. ring.
+      * cbn [map app concat fst]. constructor; [destruct k; [discriminate | reflexivity ..] | exact h4].
+    + destruct k; try discriminate. exists (ms :: mss'). split; [| split].
+      * constructor; [| exact h2]. clear - h1. induction h1 as [| r m rs ms [_ h] h1 IH]; constructor; [split; [exact I | exact h] | exact IH].
+      * cbn [map]. rewrite h3. reflexivity.
+      * cbn [concat]. rewrite map_app. apply Forall2_app; [| exact h4]. clear - h1. induction h1 as [| r m rs ms [h _] h1 IH]; cbn [map]; constructor; assumption.
 Qed.
 
-Lemma grouped_at_sound : forall places s steps ns kinds z r a d mss, Forall2 (multi_in bits) (fst r) a -> multi_in bits (snd r) d -> Forall2 (stepped bits) steps mss -> are_so z kinds mss ->
-  let l := map corner s in let m e := at_lambda l (moved (fst e) (map stride mss) (snd e)) in
-  grouped_in z (grouped_at places s steps ns (kinds_for steps kinds 0 r) r) (map m a, m d, dot (map (Y_value places) ns) (map stride mss)).
+Lemma grouped_at_sound : forall places s steps ns kinds z l r a d mss, Forall2 (multi_in bits) (fst r) a -> multi_in bits (snd r) d -> Forall2 (stepped bits) steps mss -> are_so z kinds steps (map stride mss) ->
+  let lambda := map corner s in let m e := at_lambda lambda (moved (fst e) (map stride mss) (snd e)) in
+  grouped_in z (grouped_at places s steps ns (kinds_for l kinds 0 r) r) (map m a, m d, dot (map (Y_value places) ns) (map stride mss)).
 Proof.
-  intros places s steps ns kinds z r a d mss ha hd hm hk l m. destruct (weighted_at_shares bits places s steps ns r a d mss ha hd hm) as [a0 [d0 [ms [h1 h2]]]].
-  pose proof (kinds_for_so z r steps mss hm kinds 0 hk) as K. rewrite <- h2 in K. exists a0, d0, ms.
-  assert (L : length (kinds_for steps kinds 0 r) = length (snd (weighted_at bits places s steps ns r))).
+  intros places s steps ns kinds z l r a d mss ha hd hm hk lambda m. unfold grouped_at. set (ks := kinds_for l kinds 0 r). destruct (firsts_so z steps mss hm ks (kinds_for_so z l r steps _ kinds 0 hk)) as [mss' [f1 [f2 K]]].
+  destruct (weighted_at_shares bits (fun _ => True) places s (firsts ks steps) ns r a d mss' ha hd f1) as [a0 [d0 [ms [h1 h2]]]]. cbv zeta in h1. rewrite f2 in h1. rewrite <- h2 in K. exists a0, d0, ms.
+  assert (L : length (kinds_of ks steps) = length (snd (weighted_at bits places s (firsts ks steps) ns r))).
   { rewrite (related_length _ _ _ _ _ K), map_length. symmetry. exact (related_length _ _ _ _ _ (proj1 (proj2 (proj2 h1)))). }
   assert (C : forall (A B : Type) (x : list A) (y : list B), length x = length y -> map fst (combine x y) = x /\ map snd (combine x y) = y).
   { clear. induction x as [| b x IH]; intros [| c y] e; try discriminate; [split; reflexivity |]. cbn in e. destruct (IH y ltac:(congruence)) as [I J]. cbn [combine map fst snd]. rewrite I, J. split; reflexivity. }
-  unfold grouped_at. cbn [fst snd]. destruct (C _ _ _ _ L) as [-> ->]. split; [exact h1 |]. clear - K. revert K. generalize (kinds_for steps kinds 0 r). induction ms as [| m ms IH]; intros ks K; inversion K; subst; constructor; [assumption | apply IH; assumption].
+  cbn [fst snd]. destruct (C _ _ _ _ L) as [-> ->]. split; [exact h1 |]. clear - K. revert K. generalize (kinds_of ks steps). induction ms as [| m ms IH]; intros own K; inversion K; subst; constructor; [assumption | apply IH; assumption].
 Qed.
 
-(** ** Shares of steps: those of parameters of second order that have one *)
+(** ** Shares of first steps: of parameters of second order in the middle *)
 
 Section Ends.
 Variables (ends : list (nat * choice)) (curved : list nat).
-Definition is_one (p : nat) : bool := match nth p ends (O, FromMiddle) with (_, FromMiddle) => false | (j, _) => is_in j curved end.
+Definition is_middle (p : nat) : bool := match nth p ends (O, FromLeast) with (j, FromMiddle) => is_in j curved | _ => false end.
 Definition kinds : list kind :=
-  map (fun p => if is_one p then OfOne p else Alone) (seq 0 (length ends)) ++
-  map (fun k => if is_one (fst k) && is_one (snd k) then OfTwo (fst k) (snd k) else Alone) (Second.pairs ends curved).
+  map (fun p => if is_middle p then OfOne p else Alone) (seq 0 (length ends)) ++
+  map (fun k => if is_middle (fst k) && is_middle (snd k) then OfTwo (fst k) (snd k) else Alone) (Second.pairs ends curved).
 
 Theorem shares_sound : forall params theta0 theta mss, Forall2 (stepped bits) (Tolerances.steps ends params) mss ->
   Forall2 (fun e ms => nth (fst e) theta 0 - nth (fst e) theta0 0 = stride ms) ends mss ->
-  exists mss' z, Forall2 (stepped bits) (Second.steps bits ends curved params) mss' /\ map stride mss' = Second.differences ends curved theta0 theta /\ (forall p, is_share (z p)) /\ are_so z kinds mss'.
+  exists z, (forall p, -1 <= z p <= 1) /\ are_so z kinds (Second.steps bits ends curved params) (Second.differences ends curved theta0 theta).
 Proof.
-  intros params theta0 theta mss h d. unfold Second.steps, Second.differences. rewrite (Second.differences_are ends theta0 theta mss d). cbv zeta. pose proof (Second.product_sound bits ends params mss h) as K. set (ss := Tolerances.steps ends params) in *.
-  set (z := fun p => fst (hd (0, 0) (nth p mss []))).
+  intros params theta0 theta mss h d. unfold Second.steps, Second.differences. cbv zeta. set (ss := Tolerances.steps ends params) in *. pose proof (unit_R_pos bits) as u.
+  assert (ed : map (fun e => nth (fst e) theta 0 - nth (fst e) theta0 0) ends = map stride mss) by (clear h ss; induction d as [| e ms es mss h d IH]; [reflexivity |]; cbn [map]; rewrite h, IH; reflexivity).
+  rewrite ed. set (ds := map stride mss). assert (lm : length ends = length mss) by exact (related_length _ _ _ _ _ d).
+  set (z := fun p => match nth p mss [] with [m; m'] => fst m - fst m' | _ => 0 end). exists z.
   assert (N : forall p, stepped bits (nth p ss []) (nth p mss [])) by (intro p; clear - h; revert p; induction h as [| s ms ss mss h1 h IH]; intros [| p]; cbn [nth]; auto; constructor).
-  assert (hz : forall p, is_share (z p)) by (intro p; unfold z; destruct (N p) as [| r m rs ms [hm _] _]; [split; cbn; lra | exact hm]).
-  assert (D : forall p, nth p (map stride mss) 0 = stride (nth p mss [])) by (intro p; exact (map_nth stride mss [] p)).
-  assert (One : forall p, is_one p = true -> exists r y, nth p ss [] = [r] /\ nth p mss [] = [(z p, y)] /\ contains r y).
-  { intros p o. unfold is_one in o. destruct (nth p ends (O, FromMiddle)) as [j c] eqn:e. assert (l : (p < length ends)%nat) by (apply Nat.nle_gt; intro n; rewrite nth_overflow in e by exact n; injection e as <- <-; discriminate).
-    assert (E : nth p ss [] = snd (start (nth j params zero) c)).
-    { unfold ss, Tolerances.steps. set (f := fun e : nat * choice => snd (start (nth (fst e) params zero) (snd e))). rewrite (nth_indep _ _ (f (O, FromMiddle))) by (rewrite map_length; exact l). rewrite map_nth, e. reflexivity. }
-    assert (S : exists r, snd (start (nth j params zero) c) = [r]) by (destruct c; [eexists; reflexivity .. | discriminate]). destruct S as [r er]. specialize (N p). unfold z. rewrite E, er in *.
-    clear - N. revert N. generalize (nth p mss []). intros ms N. inversion N as [| r' [m y] rs ms' [_ hr] h1 e1 e2]; subst. inversion h1; subst. exists r, y. split; [reflexivity | split; [reflexivity | exact hr]]. }
-  assert (Two : forall k, exists ms, stepped bits (Second.product bits ss k) ms /\ stride ms = Second.difference (map stride mss) k /\
-    ((if is_one (fst k) && is_one (snd k) then OfTwo (fst k) (snd k) else Alone) = Alone \/ exists y, ms = [(share z (if is_one (fst k) && is_one (snd k) then OfTwo (fst k) (snd k) else Alone), y)])).
-  { intros [p q]. cbn [fst snd]. destruct (is_one p && is_one q) eqn:o.
-    - apply andb_true_iff in o as [o1 o2]. destruct (One p o1) as [r [y [e1 [e2 h1]]]]. destruct (One q o2) as [r' [y' [e1' [e2' h1']]]]. unfold Second.product, Second.difference. cbn [fst snd share]. rewrite !D, e1, e2, e1', e2'.
-      pose proof (Second.share_times _ _ (hz p) (hz q)) as hpq. destruct (Nat.eqb_spec p q) as [<- | n].
-      + exists [(z p * z p, y * y / 2)]. split; [constructor; [split; [exact hpq | apply halve_sound, mul_sound; exact h1] | constructor] |]. split; [unfold stride; cbn; field | right; exists (y * y / 2); reflexivity].
-      + exists [(z p * z q, y * y')]. cbn [flat_map map app]. split; [constructor; [split; [exact hpq | apply mul_sound; assumption] | constructor] |]. split; [unfold stride; cbn; ring | right; exists (y * y'); reflexivity].
-    - destruct (K (p, q)) as [ms [k1 k2]]. exists ms. split; [exact k1 |]. split; [exact k2 | left; reflexivity]. }
-  assert (G : forall l, exists mss', Forall2 (stepped bits) (map (Second.product bits ss) l) mss' /\ map stride mss' = map (Second.difference (map stride mss)) l /\
-    are_so z (map (fun k => if is_one (fst k) && is_one (snd k) then OfTwo (fst k) (snd k) else Alone) l) mss').
-  { induction l as [| k l [mss' [h1 [h2 h3]]]]; [exists []; repeat constructor |]. destruct (Two k) as [ms [k1 [k2 k3]]]. exists (ms :: mss'). split; [constructor; assumption |]. split; [cbn [map]; rewrite k2, h2; reflexivity | constructor; assumption]. }
-  destruct (G (Second.pairs ends curved)) as [mss' [h1 [h2 h3]]]. exists (mss ++ mss'), z. split; [apply Forall2_app; assumption |]. split; [rewrite map_app, h2; reflexivity |]. split; [exact hz |].
-  apply Forall2_app; [| exact h3]. assert (lm : length mss = length ends) by (symmetry; exact (related_length _ _ _ _ _ d)). rewrite <- (Second.as_seq _ [] mss), lm.
-  generalize (seq 0 (length ends)). induction l as [| p l I]; cbn [map]; constructor; [| exact I]. destruct (is_one p) eqn:o; [right | left; reflexivity]. destruct (One p o) as [r [y [_ [e _]]]]. exists y. exact e.
+  assert (D : forall p, nth p ds 0 = stride (nth p mss [])) by (intro p; exact (map_nth stride mss [] p)).
+  assert (One : forall p, is_middle p = true -> exists r rs y, nth p ss [] = r :: rs /\ contains r y /\ nth p ds 0 = z p * y).
+  { intros p o. rewrite D. unfold is_middle in o. destruct (nth p ends (O, FromLeast)) as [j c] eqn:e. destruct c; try discriminate. assert (l : (p < length ends)%nat) by (apply Nat.nle_gt; intro n; rewrite nth_overflow in e by exact n; discriminate).
+    assert (E : nth p ss [] = snd (start (nth j params zero) FromMiddle)).
+    { unfold ss, Tolerances.steps. set (f := fun e : nat * choice => snd (start (nth (fst e) params zero) (snd e))). rewrite (nth_indep _ _ (f (O, FromLeast))) by (rewrite map_length; exact l). rewrite map_nth, e. reflexivity. }
+    specialize (N p). unfold z. rewrite E in *. cbn [start snd] in *. set (n := (hi _ - _)%Z) in *. clear - N u. revert N. generalize (nth p mss []). intros ms N.
+    inversion N as [| ? [m r] ? ? [h1 h2] h3]; subst. inversion h3 as [| ? [m' r'] ? ? [k1 k2] k3]; subst. inversion k3; subst. cbn [fst snd] in *. eexists _, _, r. split; [reflexivity |]. split; [exact h2 |].
+    assert (e : r' = - r); [| subst r'; unfold stride; cbn; ring].
+    destruct h2 as [l1 l2], k2 as [g1 g2]. cbn [lo hi] in *. match type of g1 with IZR ?z <= _ => replace z with (- n)%Z in g1, g2 by (unfold n; lia) end. rewrite opp_IZR in g1, g2. apply Rmult_eq_reg_r with (unit_R bits); lra. }
+  split.
+  - intro p. unfold z. specialize (N p). destruct (nth p mss []) as [| m [| m' [|]]]; try lra. inversion N as [| ? ? ? ? [h1 _] h2]; subst. inversion h2 as [| ? ? ? ? [k1 _] _]; subst. destruct h1, k1. lra.
+  - unfold are_so. assert (A : forall (A B : Type) (a c : list A) (b e : list B), length a = length b -> combine (a ++ c) (b ++ e) = combine a b ++ combine c e).
+    { clear. induction a as [| x a IH]; intros c [| y b] e l; try discriminate; [reflexivity |]. cbn [app combine]. rewrite IH by (cbn in l; congruence). reflexivity. }
+    assert (M : forall (A B C : Type) (f : A -> B) (g : A -> C) l, combine (map f l) (map g l) = map (fun a => (f a, g a)) l) by (clear; induction l as [| a l IH]; [reflexivity |]; cbn [map combine]; rewrite IH; reflexivity).
+    rewrite A by (unfold ss, Tolerances.steps, ds; rewrite !map_length; exact lm). unfold kinds. apply Forall2_app.
+    + rewrite <- (Second.as_seq _ [] ss), <- (Second.as_seq _ 0 ds). replace (length ss) with (length ends) by (symmetry; apply map_length). replace (length ds) with (length ends) by (unfold ds; rewrite map_length; exact lm). rewrite M.
+      generalize (seq 0 (length ends)). induction l as [| p l I]; cbn [map]; constructor; [| exact I]. destruct (is_middle p) eqn:o; [right | left; reflexivity]. destruct (One p o) as [r [rs [y [e [k1 k2]]]]]. exists y. cbn [fst snd share]. rewrite e. cbn [firstn]. split; [constructor; [exact k1 | constructor] | exact k2].
+    + rewrite M. generalize (Second.pairs ends curved). induction l as [| [p q] l I]; cbn [map]; constructor; [| exact I]. cbn [fst snd]. destruct (is_middle p && is_middle q) eqn:o; [right | left; reflexivity].
+      apply andb_true_iff in o as [o1 o2]. destruct (One p o1) as [r [rs [y [e1 [e2 e3]]]]]. destruct (One q o2) as [r' [rs' [y' [e1' [e2' e3']]]]]. unfold Second.product, Second.difference. cbn [fst snd share]. rewrite e3, e3', e1, e1'. destruct (Nat.eqb_spec p q) as [<- | n].
+      * exists (y * y / 2). cbn [firstn]. split; [constructor; [apply halve_sound, mul_sound; exact e2 | constructor] | field].
+      * exists (y * y'). cbn [flat_map map app firstn]. split; [constructor; [apply mul_sound; assumption | constructor] | ring].
 Qed.
 End Ends.
 End Precision.

@@ -307,11 +307,12 @@ Qed.
 (** ** A row of one machine, with changes, and what these change of the multiple *)
 
 Definition weighted (A : Type) : Type := (list A * A) * list (list A * A * A).
-Definition weighted_by (i : weighted fixed) (r : list R * R * R) (a : list R) (d : R) (ms : list (R * (list R * R * R))) : Prop :=
+(** By shares of which this is so. *)
+Definition weighted_by (is_so : R -> Prop) (i : weighted fixed) (r : list R * R * R) (a : list R) (d : R) (ms : list (R * (list R * R * R))) : Prop :=
   Forall2 contains (fst (fst i)) a /\ contains (snd (fst i)) d /\
-    Forall2 (fun c m => is_share (fst m) /\ Forall2 contains (fst (fst c)) (fst (fst (snd m))) /\ contains (snd (fst c)) (snd (fst (snd m))) /\ contains (snd c) (snd (snd m))) (snd i) ms /\
+    Forall2 (fun c m => is_so (fst m) /\ Forall2 contains (fst (fst c)) (fst (fst (snd m))) /\ contains (snd (fst c)) (snd (fst (snd m))) /\ contains (snd c) (snd (snd m))) (snd i) ms /\
     (forall v, dot (fst (fst r)) v = dot a v + sum_of ms (fun c => dot (fst (fst c)) v)) /\ snd (fst r) = d + sum_of ms (fun c => snd (fst c)) /\ snd r = sum_of ms snd.
-Definition weighted_in (i : weighted fixed) (r : list R * R * R) : Prop := exists a d ms, weighted_by i r a d ms.
+Definition weighted_in (i : weighted fixed) (r : list R * R * R) : Prop := exists a d ms, weighted_by is_share i r a d ms.
 Definition changed (r : list (list R * R * R)) : R := fold_right (fun r s => snd r + s) 0 r.
 
 Fixpoint lower_weighted (w : list fixed) (across : option (list fixed)) (places : N) (Y : list (list Z)) (r : list (weighted fixed)) (start : triangle) : option triangle :=
@@ -465,16 +466,16 @@ Definition weighted_at (places : N) (s : list bool) (steps : list (list fixed)) 
   let f q := at_vertex s (fst q) in ((map f (fst r), f (snd r)), changes_with places s 0 steps ns r).
 
 (** With the shares that steps have. *)
-Lemma weighted_at_shares : forall places s steps ns r a d mss, Forall2 (multi_in bits) (fst r) a -> multi_in bits (snd r) d -> Forall2 (stepped bits) steps mss ->
+Lemma weighted_at_shares : forall (is_so : R -> Prop) places s steps ns r a d mss, Forall2 (multi_in bits) (fst r) a -> multi_in bits (snd r) d -> Forall2 (Forall2 (fun r m => is_so (fst m) /\ contains r (snd m))) steps mss ->
   let l := map corner s in let m e := at_lambda l (moved (fst e) (map stride mss) (snd e)) in
-  exists a0 d0 ms, weighted_by (weighted_at places s steps ns r) (map m a, m d, dot (map (Y_value places) ns) (map stride mss)) a0 d0 ms /\ map fst ms = map fst (concat mss).
+  exists a0 d0 ms, weighted_by is_so (weighted_at places s steps ns r) (map m a, m d, dot (map (Y_value places) ns) (map stride mss)) a0 d0 ms /\ map fst ms = map fst (concat mss).
 Proof.
-  intros places s steps ns r a d mss ha hd hm l m.
+  intros is_so places s steps ns r a d mss ha hd hm l m.
   assert (At : forall q e p, multi_in bits q e -> contains (at_vertex s (nth p (snd q) (constant zero))) (at_lambda l (nth p (snd e) (0, [])))).
   { intros q e p [_ h]. apply at_vertex_sound. revert p. induction h as [| u v us vs k h IH]; intros [| p]; cbn [nth]; auto.
     - split; [apply zero_sound | constructor].
     - split; [apply zero_sound | constructor]. }
-  assert (C : forall p ns, exists ms, Forall2 (fun c m => is_share (fst m) /\ Forall2 contains (fst (fst c)) (fst (fst (snd m))) /\ contains (snd (fst c)) (snd (fst (snd m))) /\ contains (snd c) (snd (snd m))) (changes_with places s p steps ns r) ms /\
+  assert (C : forall p ns, exists ms, Forall2 (fun c m => is_so (fst m) /\ Forall2 contains (fst (fst c)) (fst (fst (snd m))) /\ contains (snd (fst c)) (snd (fst (snd m))) /\ contains (snd c) (snd (snd m))) (changes_with places s p steps ns r) ms /\
     (forall v, sum_of ms (fun c => dot (fst (fst c)) v) = dot (map (fun e => dot (map stride mss) (map (at_lambda l) (skipn p (snd e)))) a) v) /\
     sum_of ms (fun c => snd (fst c)) = dot (map stride mss) (map (at_lambda l) (skipn p (snd d))) /\ sum_of ms snd = dot (map (Y_value places) ns) (map stride mss) /\ map fst ms = map fst (concat mss)).
   { clear ns. induction hm as [| rs ks steps mss h hm IH]; intros p ns; cbn [changes_with].
@@ -509,7 +510,7 @@ Qed.
 Lemma weighted_at_sound : forall places s steps ns r a d mss, Forall2 (multi_in bits) (fst r) a -> multi_in bits (snd r) d -> Forall2 (stepped bits) steps mss ->
   let l := map corner s in let m e := at_lambda l (moved (fst e) (map stride mss) (snd e)) in
   weighted_in (weighted_at places s steps ns r) (map m a, m d, dot (map (Y_value places) ns) (map stride mss)).
-Proof. intros places s steps ns r a d mss ha hd hm. destruct (weighted_at_shares places s steps ns r a d mss ha hd hm) as [a0 [d0 [ms [h _]]]]. exists a0, d0, ms. exact h. Qed.
+Proof. intros places s steps ns r a d mss ha hd hm. destruct (weighted_at_shares is_share places s steps ns r a d mss ha hd hm) as [a0 [d0 [ms [h _]]]]. exists a0, d0, ms. exact h. Qed.
 
 (** By what a multiple changes with a row, an entry of the row does. *)
 Definition is_still (s : slope) : bool :=
