@@ -134,56 +134,71 @@ Example of_another : between (product 9) (firstn 1 middle) [1]%nat = false. Proo
 Example twice : between (product 9) middle [0; 0]%nat = false. Proof. vm_cast_no_check (eq_refl false). Qed.
 End OfSecondOrder.
 
-(** Tolerances looked at together: of parameters in [0, 1], from the one machine at 0, and a row of one coordinate with D = 1. *)
+(** Tolerances looked at together: of parameters in [-1, 1], from the one machine at 0, and a row of one coordinate with D = 1. *)
 Module LookedAtTogether.
 Definition of_row (t : test) (by_ : evidence) (all : list (list Z)) (A : formula) (ends : list (nat * choice)) (curved : list nat) : bool :=
-  let tape := compile [A; integer 1] in let cell := [Fixed.integer 32 1] in let params := repeat (Fixed.Fixed 0 (2 ^ 32)) 2 in
+  let tape := compile [A; integer 1] in let cell := [Fixed.integer 32 1] in let params := repeat (Fixed.Fixed (- 2 ^ 32) (2 ^ 32)) 7 in
   shows_on 32 tape [([place (formulas tape) A], place (formulas tape) (integer 1))] [] [] params (fun _ => None) (evaluate 32 tape params cell) cell t
     (ByTolerances (ByTogether by_ 2 all) ends curved [[1%Z]]).
-Definition least : list (nat * choice) := [(0, FromLeast); (1, FromLeast)]%nat.
+Definition centre (n : nat) : list (nat * choice) := map (fun j => (j, FromMiddle)) (seq 0 n).
 Definition p : formula := F (Param 0).
 Definition q : formula := F (Param 1).
 Definition beyond := of_row (SigmaMin (Fixed.integer 32 0)) (ByLower 0 [[1%Z]]).
 Definition below (n : Z) := of_row (SigmaMax (Fixed.integer 32 n)) ByTest.
-(** 2 - p - q + p q is at least 1, and each by itself would leave 0. *)
-Definition falling : formula := F (Add (F (Sub (F (Sub (integer 2) p)) q)) (F (Mul p q))).
-Example certified : beyond [[9]]%Z falling least [0; 1]%nat = true. Proof. vm_cast_no_check (eq_refl true). Qed.
-Example each_alone : beyond [[]] falling least [0; 1]%nat = false. Proof. vm_cast_no_check (eq_refl false). Qed.
-Example too_little : beyond [[8]]%Z falling least [0; 1]%nat = false. Proof. vm_cast_no_check (eq_refl false). Qed.
-Example too_much : beyond [[12]]%Z falling least [0; 1]%nat = false. Proof. vm_cast_no_check (eq_refl false). Qed.
-Example of_one : beyond [[9]]%Z falling least [0]%nat = false. Proof. vm_cast_no_check (eq_refl false). Qed.
-Example of_none : beyond [[9]]%Z falling least [] = false. Proof. vm_cast_no_check (eq_refl false). Qed.
-Example two_numbers : beyond [[9; 9]]%Z falling least [0; 1]%nat = false. Proof. vm_cast_no_check (eq_refl false). Qed.
-Example two_rows : beyond [[9]; []]%Z falling least [0; 1]%nat = false. Proof. vm_cast_no_check (eq_refl false). Qed.
-Example by_rank : of_row (SigmaMin (Fixed.integer 32 0)) (ByRank 0 [[1%Z]]) [[9]]%Z falling least [0; 1]%nat = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+(** 3 - p - q + p q is at least 2, and each by itself would leave 0. *)
+Definition falling : formula := F (Add (F (Sub (F (Sub (integer 3) p)) q)) (F (Mul p q))).
+Example certified : beyond [[9]]%Z falling (centre 2) [0; 1]%nat = true. Proof. vm_cast_no_check (eq_refl true). Qed.
+Example each_alone : beyond [[]] falling (centre 2) [0; 1]%nat = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example too_little : beyond [[8]]%Z falling (centre 2) [0; 1]%nat = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example too_much : beyond [[20]]%Z falling (centre 2) [0; 1]%nat = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example of_one : beyond [[9]]%Z falling (centre 2) [0]%nat = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example of_none : beyond [[9]]%Z falling (centre 2) [] = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example two_numbers : beyond [[9; 9]]%Z falling (centre 2) [0; 1]%nat = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example two_rows : beyond [[9]; []]%Z falling (centre 2) [0; 1]%nat = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example by_rank : of_row (SigmaMin (Fixed.integer 32 0)) (ByRank 0 [[1%Z]]) [[9]]%Z falling (centre 2) [0; 1]%nat = false. Proof. vm_cast_no_check (eq_refl false). Qed.
 Example of_other_rows : of_row (Least [([place (formulas (compile [falling; integer 1])) falling], place (formulas (compile [falling; integer 1])) (integer 1))] (Fixed.integer 32 0))
-  (ByLower 0 [[1%Z]]) [[9]]%Z falling least [0; 1]%nat = true.
+  (ByLower 0 [[1%Z]]) [[9]]%Z falling (centre 2) [0; 1]%nat = true.
 Proof. vm_cast_no_check (eq_refl true). Qed.
-(** 2 - p + p^2 is least in between, at 1/2: at both ends nothing is changed. *)
-Definition bent : formula := F (Add (F (Sub (integer 2) p)) (F (Sqr p))).
-Example in_between : beyond [[3]]%Z bent least [0; 1]%nat = true. Proof. vm_cast_no_check (eq_refl true). Qed.
-Example of_the_ends_alone : beyond [[1]]%Z bent least [0; 1]%nat = false. Proof. vm_cast_no_check (eq_refl false). Qed.
-(** From the middle there are two steps: nothing is looked at together, and R is taken off besides. *)
-Example from_the_middle : beyond [[9]]%Z falling [(0, FromMiddle); (1, FromMiddle)]%nat [0; 1]%nat = false. Proof. vm_cast_no_check (eq_refl false). Qed.
-(** 1 + p + q - p q is at most 2. *)
+(** The same with both turned round, with which the product stays; and with it turned round, of which 0 is left at an end. *)
+Example turned_round : beyond [[9]]%Z (F (Add (F (Add (F (Add (integer 3) p)) q)) (F (Mul p q)))) (centre 2) [0; 1]%nat = true. Proof. vm_cast_no_check (eq_refl true). Qed.
+Example product_turned_round : beyond [[9]]%Z (F (Sub (F (Sub (F (Sub (integer 3) p)) q)) (F (Mul p q)))) (centre 2) [0; 1]%nat = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+(** 2 + p + p^2 is less at -1/2 than at the ends. *)
+Definition bent : formula := F (Add (F (Add (integer 2) p)) (F (Sqr p))).
+Example in_between : beyond [[9]]%Z bent (centre 2) [0; 1]%nat = true. Proof. vm_cast_no_check (eq_refl true). Qed.
+Example of_the_ends_alone : beyond [[1]]%Z bent (centre 2) [0; 1]%nat = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+(** From an end there is one step: nothing is looked at together, and R is taken off besides. *)
+Example from_the_end : beyond [[9]]%Z falling [(0, FromLeast); (1, FromGreatest)]%nat [0; 1]%nat = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example one_from_the_end : beyond [[9]]%Z (F (Sub (F (Sub (integer 4) p)) q)) [(0, FromMiddle); (1, FromLeast)]%nat [0; 1]%nat = true. Proof. vm_cast_no_check (eq_refl true). Qed.
+(** No more than six. *)
+Definition sum (n : nat) : formula := fold_right (fun j e => F (Add e (F (Param j)))) (integer 9) (seq 0 n).
+Example of_six : beyond [[49]]%Z (sum 6) (centre 6) (seq 0 6) = true. Proof. vm_cast_no_check (eq_refl true). Qed.
+Example of_seven : beyond [[57]]%Z (sum 7) (centre 7) (seq 0 7) = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+(** With no change R alone is what has to be positive. *)
+Example unchanged : beyond [[1]]%Z (integer 2) (centre 2) [0; 1]%nat = true. Proof. vm_cast_no_check (eq_refl true). Qed.
+Example unchanged_too_little : beyond [[0]]%Z (integer 2) (centre 2) [0; 1]%nat = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example unchanged_too_much : beyond [[12]]%Z (integer 2) (centre 2) [0; 1]%nat = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example unchanged_at_most : below 2 [[1; 0; 1]]%Z (integer 1) (centre 2) [0; 1]%nat = true. Proof. vm_cast_no_check (eq_refl true). Qed.
+Example unchanged_at_most_less : below 1 [[-1; 0; -1]]%Z (integer 1) (centre 2) [0; 1]%nat = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+(** 1 + p + q - p q is between -2 and 2. *)
 Definition rising : formula := F (Sub (F (Add (F (Add (integer 1) p)) q)) (F (Mul p q))).
-Example at_most : below 5 [[1; -2; 5]]%Z rising least [0; 1]%nat = true. Proof. vm_cast_no_check (eq_refl true). Qed.
-Example at_most_alone : below 5 [[]] rising least [0; 1]%nat = false. Proof. vm_cast_no_check (eq_refl false). Qed.
-Example at_most_less : below 4 [[1; -2; 5]]%Z rising least [0; 1]%nat = false. Proof. vm_cast_no_check (eq_refl false). Qed.
-Example of_another_R : below 5 [[1; 2; 5]]%Z rising least [0; 1]%nat = false. Proof. vm_cast_no_check (eq_refl false). Qed.
-(** Either bound of a condition number, of 1 + p, with mu = 1/2, and with 1/2 + n p. *)
-Definition bounded (c n : Z) (weights : list (list (nat * Z))) (lower upper : list (list Z)) (directions : list (list Z)) : bool :=
-  let A := F (Add (integer 1) p) in
-  let tape := compile [A; integer 1] in let cell := [Fixed.integer 32 1] in let params := repeat (Fixed.Fixed 0 (2 ^ 32)) 2 in
-  let by_ all e directions := ByTolerances (ByTogether e 2 all) least [0; 1]%nat directions in
+Example at_most : below 6 [[3; 4; 22]]%Z rising (centre 2) [0; 1]%nat = true. Proof. vm_cast_no_check (eq_refl true). Qed.
+Example at_most_alone : below 6 [[]] rising (centre 2) [0; 1]%nat = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example at_most_less : below 5 [[3; 4; 22]]%Z rising (centre 2) [0; 1]%nat = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example of_another_R : below 6 [[3; 0; 22]]%Z rising (centre 2) [0; 1]%nat = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+(** Either bound of a condition number, of 2 + p, with mu = m/4, and with m/4 + n p. *)
+Definition bounded (c m : Z) (weights : list (list (nat * Z))) (lower upper : list (list Z)) (directions : list (list Z)) : bool :=
+  let A := F (Add (integer 2) p) in
+  let tape := compile [A; integer 1] in let cell := [Fixed.integer 32 1] in let params := repeat (Fixed.Fixed (- 2 ^ 32) (2 ^ 32)) 2 in
+  let by_ all e directions := ByTolerances (ByTogether e 2 all) (centre 2) [0; 1]%nat directions in
   shows_step 32 tape [([place (formulas tape) A], place (formulas tape) (integer 1))] [] [] params (fun _ => None) (evaluate 32 tape params cell) cell (Conditioning (Fixed.integer 32 c))
-    (ByBetween 2 [n; 0%Z] weights (by_ lower (ByLower 0 [[1%Z]]) directions) (by_ upper ByTest [[1%Z]])).
-Example both_bounds : bounded 10 2 [] [[1]]%Z [[1; -2; 5]]%Z [[1]]%Z = true. Proof. vm_cast_no_check (eq_refl true). Qed.
-Example no_upper_bound : bounded 7 2 [] [[1]]%Z [[1; -2; 5]]%Z [[1]]%Z = false. Proof. vm_cast_no_check (eq_refl false). Qed.
-Example no_lower_bound : bounded 10 4 [] [[1]]%Z [[1; -2; 5]]%Z [[1]]%Z = false. Proof. vm_cast_no_check (eq_refl false). Qed.
-Example with_weights : bounded 4 2 [[(0%nat, 4)]]%Z [[1]]%Z [[1; 0; 1]]%Z [[1]; [0]]%Z = true. Proof. vm_cast_no_check (eq_refl true). Qed.
-Example across : bounded 4 2 [[(0%nat, 4)]]%Z [[1]]%Z [[1; 0; 1]]%Z [[1]; [1]]%Z = true. Proof. vm_cast_no_check (eq_refl true). Qed.
-Example one_direction : bounded 4 2 [[(0%nat, 4)]]%Z [[1]]%Z [[1; 0; 1]]%Z [[1]]%Z = false. Proof. vm_cast_no_check (eq_refl false). Qed.
-Example greater_weights : bounded 4 2 [[(0%nat, 16)]]%Z [[1]]%Z [[1; 0; 1]]%Z [[1]; [0]]%Z = false. Proof. vm_cast_no_check (eq_refl false). Qed.
-Example without_weights : bounded 4 2 [] [[1]]%Z [[1; 0; 1]]%Z [[1]]%Z = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+    (ByBetween 2 [m; 0%Z] weights (by_ lower (ByLower 0 [[1%Z]]) directions) (by_ upper ByTest [[1%Z]])).
+Example both_bounds : bounded 21 2 [] [[9]]%Z [[2; 0; 9]]%Z [[1]]%Z = true. Proof. vm_cast_no_check (eq_refl true). Qed.
+Example no_upper_bound : bounded 18 2 [] [[9]]%Z [[2; 0; 9]]%Z [[1]]%Z = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example no_lower_bound : bounded 21 4 [] [[9]]%Z [[2; 0; 9]]%Z [[1]]%Z = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example with_weights : bounded 10 4 [[(0%nat, 2)]]%Z [[7]]%Z [[2; 4; 21]]%Z [[1]; [0]]%Z = true. Proof. vm_cast_no_check (eq_refl true). Qed.
+Example across : bounded 10 4 [[(0%nat, 2)]]%Z [[7]]%Z [[2; 4; 21]]%Z [[1]; [1]]%Z = true. Proof. vm_cast_no_check (eq_refl true). Qed.
+Example one_direction : bounded 10 4 [[(0%nat, 2)]]%Z [[7]]%Z [[2; 4; 21]]%Z [[1]]%Z = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example greater_weights : bounded 10 4 [[(0%nat, 4)]]%Z [[7]]%Z [[2; 4; 21]]%Z [[1]; [0]]%Z = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example weights_turned_round : bounded 10 4 [[(0%nat, -2)]]%Z [[7]]%Z [[2; 4; 21]]%Z [[1]; [0]]%Z = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example without_weights : bounded 10 4 [] [[7]]%Z [[2; 4; 21]]%Z [[1]]%Z = false. Proof. vm_cast_no_check (eq_refl false). Qed.
 End LookedAtTogether.
