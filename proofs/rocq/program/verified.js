@@ -4,18 +4,18 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function($){"use strict";var
-lT="spatial",tY="Invalid_argument",iX="precision",a0='"',lS=1255,i5="inside",sV="(",sW=0x800,tX="yaw",sS="range",sT="tree",sU="jsError",cH=0x8000,tW="sqrt(",sR=256,iW="obligation",tV="load",gR="offset",bH="machine",sQ="End_of_file",fw="strut",lR="center",gQ="arm",lQ="Failure",tU="serial_margin",i4="parameters",df=0xff,tT="bodies",tS="max_angle",l4="outside",gP="base_axis",lP="ENOENT",tR="singular",tQ=122,sP="([^/]+)",tP="0",lO=0xf,gO=128,sO=0xdc00,tN="Sys_blocked_io",tO="fd ",gG="given",sN="ENOTEMPTY",bd=248,iV="bound",sM="Division_by_zero",tL="by",tM=1027,sL="Sys_error",tK="together",gN="slider",sK="torsion",tJ="postulate",sJ="proof",l3="joint_error",gM="refuted",fp="mechanism",iU="row",sI="EEXIST",tI="roll_pitch_yaw",gL="y",sH="cube",dM="lower",tH="within",sG="clearance",tG="turned",sF="control",iT="int_of_string",sE="between",tE="definitions",tF="dependent",gK=1024,sC="from",sD="name",tD=" : flags Open_rdonly and Open_wronly are not compatible",sB="orthocert/2",tC="reach",sA=512,tA="base_joint",tB="witness",fv="-",bx="platform",sz=0x7ff0,sy="pitch",l2=": Not a directory",b1="min",ty="trim",fu="workspace",tz=" : file already exists",iS="split",l1="legs",tx="claim",lN="joint",ez=0xffffff,sx="platform_joint",sw="formulas",sv="roll",iR="atlas",tu="greatest",tv="nodes",tw="Out_of_memory",su="psi_max",i3="orientation",iQ=254,tt="angle",l0="index out of bounds",st="end",ts="one_to_one",i2="_bigarr02",ss=" : flags Open_text and Open_binary are not compatible",tr="inverse",bG="drive",sr="coordinates",tq="holds",iP="lower_divided",sq="speed",to="cylinder",tp="joints",de=0xffff,tk="a leaf that fails",tl="acceleration",tm="force",gI="certified",gJ="chords",tn=12520,lM="on",tj="same",fo="accuracy",gH="axis",ti="no_cube",th="parallel_margin",sp='the drive "',lL="Unix.Unix_error",i1="fails",iO="tool",lK="mkdir",tf="rho",tg="least",i0=1000,lJ="translational",iZ="tolerances",so="Stack_overflow",lZ="characteristic_length",ai="",lY="^",iM="places",iN=": No such file or directory",sn="/static/",ft=0x3f,sl="stiffness",sm="Not_found",cG="planar",gF="mode",te="joint_speed",td="Match_failure",sk="transmission",b0="anchor",tc="at",sj="joint_force",fs="leg",si="joint_acceleration",iY="+",lI="rmdir",tb=0xf0,ta="spherical",sh=1026,s_="REJECTED",s$="undecided",b3="max",b2="direction",sf="leg_angle",sg="orthoglide",fr="rank",s8="constraint_margin",s9="fan",sc="the acceleration of a joint of a machine with a plane",gE="test",sd="Pervasives.do_at_exit",se="utf8",cl=0x80,fq="conditioning",fn="length",sb="Undefined_recursive_module",lX=")",sa="base",s7="quantity",r$="joint_range",iL="tilt",lW="divided",r_="Q2",s6="reference",r9="point",s4="corner",s5=0xe0,r8="version",lV="z",s2="to",s3=0xdfff,lH="compare: functional value",s1="Assert_failure",cn="/",s0="provenance",ey="radius",iK="side",sY=-14,cm="require",sZ="format",r7="Q1",lU="ENOTDIR",r6="all",ex="box",sX=250;function
-mf(c,b,a){var
+lV="spatial",t0="Invalid_argument",iY="precision",a0='"',lU=1255,i6="inside",sX="(",sY=0x800,tZ="yaw",sU="range",sV="tree",sW="jsError",cI=0x8000,tY="sqrt(",sT=256,iX="obligation",tX="load",gS="offset",bG="machine",sS="End_of_file",fw="strut",lT="center",gR="arm",lS="Failure",tW="serial_margin",i5="parameters",df=0xff,tV="bodies",tU="max_angle",l6="outside",gQ="base_axis",lR="ENOENT",tT="singular",tS=122,sR="([^/]+)",tR="0",lQ=0xf,gP=128,sQ=0xdc00,tP="Sys_blocked_io",tQ="fd ",gH="given",sP="ENOTEMPTY",bd=248,iW="bound",sO="Division_by_zero",tN="by",tO=1027,sN="Sys_error",tM="together",gO="slider",sM="torsion",tL="postulate",sL="proof",l5="joint_error",gN="refuted",fp="mechanism",iV="row",sK="EEXIST",tK="roll_pitch_yaw",gM="y",sJ="cube",dN="lower",tJ="within",sI="clearance",tI="turned",sH="control",iU="int_of_string",sG="between",tG="definitions",tH="dependent",gL=1024,sE="from",sF="name",tF=" : flags Open_rdonly and Open_wronly are not compatible",sD="orthocert/2",tE="reach",sC=512,tC="base_joint",tD="witness",fv="-",bw="platform",sB=0x7ff0,sA="pitch",l4=": Not a directory",b2="min",tA="trim",fu="workspace",tB=" : file already exists",iT="split",l3="legs",tz="claim",lP="joint",ez=0xffffff,sz="platform_joint",sy="formulas",sx="roll",iS="atlas",tw="greatest",tx="nodes",ty="Out_of_memory",sw="psi_max",i4="orientation",iR=254,tv="angle",l2="index out of bounds",sv="end",tu="one_to_one",i3="_bigarr02",su=" : flags Open_text and Open_binary are not compatible",tt="inverse",bF="drive",st="coordinates",ts="holds",iQ="lower_divided",ss="speed",tq="cylinder",tr="joints",de=0xffff,tm="a leaf that fails",tn="acceleration",to="force",gJ="certified",gK="chords",tp=12520,lO="on",tl="same",fo="accuracy",gI="axis",tk="no_cube",tj="parallel_margin",sr='the drive "',lN="Unix.Unix_error",i2="fails",iP="tool",lM="mkdir",th="rho",ti="least",i1=1000,lL="translational",i0="tolerances",sq="Stack_overflow",l1="characteristic_length",ai="",l0="^",iN="places",iO=": No such file or directory",sp="/static/",ft=0x3f,sn="stiffness",so="Not_found",cH="planar",gG="mode",tg="joint_speed",tf="Match_failure",sm="transmission",b1="anchor",te="at",sl="joint_force",fs="leg",sk="joint_acceleration",iZ="+",lK="rmdir",td=0xf0,tc="spherical",sj=1026,ta="REJECTED",tb="undecided",b4="max",b3="direction",sh="leg_angle",si="orthoglide",fr="rank",s_="constraint_margin",s$="fan",se="the acceleration of a joint of a machine with a plane",gF="test",sf="Pervasives.do_at_exit",sg="utf8",cl=0x80,fq="conditioning",fn="length",sd="Undefined_recursive_module",lZ=")",sc="base",s9="quantity",sb="joint_range",iM="tilt",lY="divided",sa="Q2",s8="reference",r$="point",s6="corner",s7=0xe0,r_="version",lX="z",s4="to",s5=0xdfff,lJ="compare: functional value",s3="Assert_failure",cn="/",s2="provenance",ey="radius",iL="side",s0=-14,cm="require",s1="format",r9="Q1",lW="ENOTDIR",r8="all",ex="box",sZ=250;function
+mh(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=ai;for(;0<a;b+=gK,a-=gK)e+=d.apply(null,c.slice(b,b+Math.min(a,gK)));return e}function
-i7(b){if($.Uint8Array)var
+e=ai;for(;0<a;b+=gL,a-=gL)e+=d.apply(null,c.slice(b,b+Math.min(a,gL)));return e}function
+i8(b){if($.Uint8Array)var
 c=new($.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-gS(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?mf(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?mf(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)i7(b);var
+gT(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?mh(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?mh(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)i8(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
@@ -23,8 +23,8 @@ a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
 fz(a){return a}function
-fy(a,b,c,d,e){gS(fz(a),b,c,d,e);return 0}function
-l6(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+fy(a,b,c,d,e){gT(fz(a),b,c,d,e);return 0}function
+l8(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
 dg(c,a){if(c.fun)return dg(c.fun,a);if(typeof
@@ -37,22 +37,22 @@ e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
 b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return dg(c,d)}}function
-un(b,a){if(b==0)return ai;if(a.repeat)return a.repeat(b);var
+up(b,a){if(b==0)return ai;if(a.repeat)return a.repeat(b);var
 d=ai,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-fA(a){if(a.t==2)a.c+=un(a.l-a.c.length,"\0");else
-a.c=mf(a.c,0,a.c.length);a.t=0}function
+fA(a){if(a.t==2)a.c+=up(a.l-a.c.length,"\0");else
+a.c=mh(a.c,0,a.c.length);a.t=0}function
 fB(a){a.t&6&&fA(a);return a.c}var
-Mg=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-Mf(a){if(Mg)return Math.floor(Math.log2(a));var
+Mk=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+Mj(a){if(Mk)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-l9(c){var
+l$(c){var
 a=new($.Float32Array)(1);a[0]=c;var
 b=new($.Int32Array)(a.buffer);return b[0]|0}var
-uf=Math.pow(2,-24);function
-L8(a){throw a}var
-aO=[0];function
-uk(){L8(aO.Division_by_zero)}function
+uh=Math.pow(2,-24);function
+Ma(a){throw a}var
+aQ=[0];function
+um(){Ma(aQ.Division_by_zero)}function
 Y(b,c,a){this.lo=b&ez;this.mi=c&ez;this.hi=a&de}Y.prototype.caml_custom="_j";Y.prototype.copy=function(){return new
 Y(this.lo,this.mi,this.hi)};Y.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};Y.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};Y.prototype.neg=function(){var
@@ -62,7 +62,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 Y(b,c,d)};Y.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 Y(b,c,d)};Y.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*uf|0)+this.mi*a.lo+this.lo*a.mi,d=(c*uf|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*uh|0)+this.mi*a.lo+this.lo*a.mi,d=(c*uh|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 Y(b,c,d)};Y.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};Y.prototype.isNeg=function(){return this.hi<<16<0};Y.prototype.and=function(a){return new
 Y(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};Y.prototype.or=function(a){return new
 Y(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};Y.prototype.xor=function(a){return new
@@ -80,22 +80,22 @@ Y(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&de);return new
 Y(this.hi<<16>>a-32,b,b)};Y.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&ez;this.lo=this.lo<<1&ez};Y.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&ez;this.mi=(this.mi>>>1|this.hi<<23)&ez;this.hi=this.hi>>>1};Y.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 Y(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};Y.prototype.div=function(a){var
-b=this;if(a.isZero())uk();var
-d=b.hi^a.hi;if(b.hi&cH)b=b.neg();if(a.hi&cH)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&cH)c=c.neg();return c};Y.prototype.mod=function(b){var
-a=this;if(b.isZero())uk();var
-d=a.hi;if(a.hi&cH)a=a.neg();if(b.hi&cH)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&cH)c=c.neg();return c};Y.prototype.toInt=function(){return this.lo|this.mi<<24};Y.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};Y.prototype.toArray=function(){return[this.hi>>8,this.hi&df,this.mi>>16,this.mi>>8&df,this.mi&df,this.lo>>16,this.lo>>8&df,this.lo&df]};Y.prototype.lo32=function(){return this.lo|(this.mi&df)<<24};Y.prototype.hi32=function(){return this.mi>>>8&de|this.hi<<16};function
-i9(b,c,a){return new
+b=this;if(a.isZero())um();var
+d=b.hi^a.hi;if(b.hi&cI)b=b.neg();if(a.hi&cI)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&cI)c=c.neg();return c};Y.prototype.mod=function(b){var
+a=this;if(b.isZero())um();var
+d=a.hi;if(a.hi&cI)a=a.neg();if(b.hi&cI)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&cI)c=c.neg();return c};Y.prototype.toInt=function(){return this.lo|this.mi<<24};Y.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};Y.prototype.toArray=function(){return[this.hi>>8,this.hi&df,this.mi>>16,this.mi>>8&df,this.mi&df,this.lo>>16,this.lo>>8&df,this.lo&df]};Y.prototype.lo32=function(){return this.lo|(this.mi&df)<<24};Y.prototype.hi32=function(){return this.mi>>>8&de|this.hi<<16};function
+i_(b,c,a){return new
 Y(b,c,a)}function
-i8(a){if(!isFinite(a)){if(isNaN(a))return i9(1,0,sz);return a>0?i9(0,0,sz):i9(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?cH:a>=0?0:cH;if(f)a=-a;var
-b=Mf(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-sh)}else{a/=Math.pow(2,b-tM);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+i9(a){if(!isFinite(a)){if(isNaN(a))return i_(1,0,sB);return a>0?i_(0,0,sB):i_(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?cI:a>=0?0:cI;if(f)a=-a;var
+b=Mj(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-sj)}else{a/=Math.pow(2,b-tO);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&lO|f|b<<4;return i9(g,e,c)}function
-gV(a){return a.toArray()}function
-t5(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==i2)for(var
+g=a|0;c=c&lQ|f|b<<4;return i_(g,e,c)}function
+gW(a){return a.toArray()}function
+t7(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==i3)for(var
 a=0;a<b.dims.length;a++)if(b.dims[a]<de)c.write(16,b.dims[a]);else{c.write(16,de);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
@@ -113,51 +113,51 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=gV(b.get(a));for(var
+e=gW(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=gV(i8(b.get(a)));for(var
+e=gW(i9(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=l9(b.get(a));c.write(32,e)}break;case
+e=l$(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,l9(d[1]));c.write(32,l9(d[2]))}break;case
+d=b.get(a);c.write(32,l$(d[1]));c.write(32,l$(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=gV(i8(f[1]));for(var
+f=b.get(a),e=gW(i9(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=gV(i8(f[2]));for(var
+e=gW(i9(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-L_(b,a){throw[0,b,a]}function
-us(a){if(a.length<24){for(var
+Mc(b,a){throw[0,b,a]}function
+uu(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-mg(e){for(var
+mi(e){for(var
 j=ai,c=ai,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<cl){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<cl;d++);if(d-b>sA){c.substr(0,1);j+=c;c=ai;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==gO){g=h+(f<<6);if(f<s5){a=g-0x3080;if(a<cl)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==gO){g=h+(g<<6);if(f<tb){a=g-0xe2080;if(a<sW||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==gO&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>de)c+=String.fromCharCode(0xd7c0+(a>>10),sO+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>gK){c.substr(0,1);j+=c;c=ai}}return j+c}function
-cI(c,a,b){this.t=c;this.c=a;this.l=b}cI.prototype.toString=function(){switch(this.t){case
+d=b+1;d<i&&(f=e.charCodeAt(d))<cl;d++);if(d-b>sC){c.substr(0,1);j+=c;c=ai;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==gP){g=h+(f<<6);if(f<s7){a=g-0x3080;if(a<cl)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==gP){g=h+(g<<6);if(f<td){a=g-0xe2080;if(a<sY||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==gP&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>de)c+=String.fromCharCode(0xd7c0+(a>>10),sQ+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>gL){c.substr(0,1);j+=c;c=ai}}return j+c}function
+cJ(c,a,b){this.t=c;this.c=a;this.l=b}cJ.prototype.toString=function(){switch(this.t){case
 9:return this.c;default:fA(this);case
-0:if(us(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};cI.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return mg(a)};cI.prototype.slice=function(){var
+0:if(uu(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};cJ.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return mi(a)};cJ.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-cI(this.t,a,this.l)};function
-t8(a){return new
-cI(0,a,a.length)}function
-b(a){return t8(a)}function
-me(c,a){L_(c,b(a))}function
-a9(a){me(aO.Invalid_argument,a)}function
-t3(a){switch(a){case
+cJ(this.t,a,this.l)};function
+t_(a){return new
+cJ(0,a,a.length)}function
+b(a){return t_(a)}function
+mg(c,a){Mc(c,b(a))}function
+a9(a){mg(aQ.Invalid_argument,a)}function
+t5(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-LC(c,e){var
+LG(c,e){var
 b=$,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -173,50 +173,50 @@ b=$,a;switch(c){case
 11:a=b.Float64Array;break;case
 12:a=b.Uint8Array;break}if(!a)a9("Bigarray.create: unsupported kind");var
 d=new
-a(e*t3(c));return d}function
-l_(c){var
+a(e*t5(c));return d}function
+ma(c){var
 a=new($.Int32Array)(1);a[0]=c;var
 b=new($.Float32Array)(a.buffer);return b[0]}function
-gU(a){return new
+gV(a){return new
 Y(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-l$(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&lO)==0?b&cH?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&lO);if(c>0){a+=16;a*=Math.pow(2,c-tM)}else
-a*=Math.pow(2,-sh);if(b&cH)a=-a;return a}function
-l5(b){var
+mb(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&lQ)==0?b&cI?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&lQ);if(c>0){a+=16;a*=Math.pow(2,c-tO)}else
+a*=Math.pow(2,-sj);if(b&cI)a=-a;return a}function
+l7(b){var
 d=b.length,c=1;for(var
 a=0;a<d;a++){if(b[a]<0)a9("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-LS(b,a){return new
+LW(b,a){return new
 Y(b&ez,b>>>24&df|(a&de)<<8,a>>>16&de)}function
-ma(a){return a.hi32()}function
-mb(a){return a.lo32()}function
-i6(){a9(l0)}var
-LD=i2;function
-dN(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dN.prototype.caml_custom=LD;dN.prototype.offset=function(b){var
+mc(a){return a.hi32()}function
+md(a){return a.lo32()}function
+i7(){a9(l2)}var
+LH=i3;function
+dO(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dO.prototype.caml_custom=LH;dO.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
 Array))a9("bigarray.js: invalid offset");if(this.dims.length!=b.length)a9("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])i6();c=c*this.dims[a]+b[a]}else
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])i7();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])i6();c=c*this.dims[a]+(b[a]-1)}return c};dN.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])i7();c=c*this.dims[a]+(b[a]-1)}return c};dO.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return LS(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return LW(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[iQ,e,c];default:return this.data[a]}};dN.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=mb(b);this.data[a*2+1]=ma(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[iR,e,c];default:return this.data[a]}};dO.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=md(b);this.data[a*2+1]=mc(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};dN.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};dO.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=mb(b),e=ma(b);if(c==e)this.data.fill(c);else
+c=md(b),e=mc(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};dN.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};dO.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -237,25 +237,25 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
 fx(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}fx.prototype=new
-dN();fx.prototype.offset=function(a){if(typeof
+dO();fx.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-a9("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])i6();return a};fx.prototype.get=function(a){return this.data[a]};fx.prototype.set=function(a,b){this.data[a]=b;return 0};fx.prototype.fill=function(a){this.data.fill(a);return 0};function
-t1(c,d,a,b){var
-e=t3(c);if(l5(a)*e!=b.length)a9("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+a9("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])i7();return a};fx.prototype.get=function(a){return this.data[a]};fx.prototype.set=function(a,b){this.data[a]=b;return 0};fx.prototype.fill=function(a){this.data.fill(a);return 0};function
+t3(c,d,a,b){var
+e=t5(c);if(l7(a)*e!=b.length)a9("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
 fx(c,d,a,b);return new
-dN(c,d,a,b)}function
-co(a){if(!aO.Failure)aO.Failure=[bd,b(lQ),-3];me(aO.Failure,a)}function
-t2(b,v,r){var
+dO(c,d,a,b)}function
+co(a){if(!aQ.Failure)aQ.Failure=[bd,b(lS),-3];mg(aQ.Failure,a)}function
+t4(b,v,r){var
 i=b.read32s();if(i<0||i>16)co("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&df,o=p>>8&1,h=[];if(r==i2)for(var
+p=b.read32s(),j=p&df,o=p>>8&1,h=[];if(r==i3)for(var
 a=0;a<i;a++){var
 n=b.read16u();if(n==de){var
 t=b.read32u(),u=b.read32u();if(t!=0)co("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=l5(h),f=LC(j,d),g=t1(j,o,h,f);switch(j){case
+d=l7(h),f=LG(j,d),g=t3(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -276,43 +276,43 @@ e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=gU(e);g.set(a,q)}break;case
+q=gV(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=l$(gU(e));g.set(a,k)}break;case
+k=mb(gV(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=l_(b.read32s());g.set(a,k)}break;case
+k=ma(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=l_(b.read32s()),l=l_(b.read32s());g.set(a,[iQ,m,l])}break;case
+m=ma(b.read32s()),l=ma(b.read32s());g.set(a,[iR,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=l$(gU(e));for(var
+m=mb(gV(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=l$(gU(e));g.set(a,[iQ,m,l])}break}v[0]=(4+i)*4;return t1(j,o,h,f)}function
-t0(a,b,c){return a.compare(b,c)}function
-md(a,b){return Math.imul(a,b)}function
-dh(b,a){a=md(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=md(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-LP(a,b){a=dh(a,mb(b));a=dh(a,ma(b));return a}function
-ue(a,b){return LP(a,i8(b))}function
-t4(c){var
-b=l5(c.dims),d=0;switch(c.kind){case
+l=mb(gV(e));g.set(a,[iR,m,l])}break}v[0]=(4+i)*4;return t3(j,o,h,f)}function
+t2(a,b,c){return a.compare(b,c)}function
+mf(a,b){return Math.imul(a,b)}function
+dh(b,a){a=mf(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=mf(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+LT(a,b){a=dh(a,md(b));a=dh(a,mc(b));return a}function
+ug(a,b){return LT(a,i9(b))}function
+t6(c){var
+b=l7(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>sR)b=sR;var
+12:if(b>sT)b=sT;var
 e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=dh(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
 1:e|=c.data[a+0];d=dh(d,e)}break;case
 4:case
-5:if(b>gO)b=gO;var
+5:if(b>gP)b=gP;var
 e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=dh(d,e)}if((b&1)!=0)d=dh(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
 a=0;a<b;a++)d=dh(d,c.data[a]);break;case
@@ -323,75 +323,75 @@ a=0;a<b;a++)d=dh(d,c.data[a]);break;case
 a=0;a<b;a++)d=dh(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=ue(d,c.data[a]);break;case
+a=0;a<b;a++)d=ug(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=ue(d,c.data[a]);break}return d}function
-LQ(a,b){b[0]=4;return a.read32s()}function
-L5(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=ug(d,c.data[a]);break}return d}function
+LU(a,b){b[0]=4;return a.read32s()}function
+L9(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
 2:co("input_value: native integer value too large");default:co("input_value: ill-formed native integer")}}function
-LV(c,d){var
+LZ(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return gU(b)}function
-LU(e,d,b){var
-c=gV(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return gV(b)}function
+LY(e,d,b){var
+c=gW(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-LR(a,b,c){return a.compare(b)}function
-LT(a){return a.lo32()^a.hi32()}var
-t$={"_j":{deserialize:LV,serialize:LU,fixed_length:8,compare:LR,hash:LT},"_i":{deserialize:LQ,fixed_length:4},"_n":{deserialize:L5,fixed_length:4},"_bigarray":{deserialize:function(a,b){return t2(a,b,"_bigarray")},serialize:t5,compare:t0,hash:t4},"_bigarr02":{deserialize:function(a,b){return t2(a,b,i2)},serialize:t5,compare:t0,hash:t4}};function
-l8(a){return t$[a.caml_custom]&&t$[a.caml_custom].compare}function
-t9(f,c,d,e){var
-b=l8(c);if(b){var
+LV(a,b,c){return a.compare(b)}function
+LX(a){return a.lo32()^a.hi32()}var
+ub={"_j":{deserialize:LZ,serialize:LY,fixed_length:8,compare:LV,hash:LX},"_i":{deserialize:LU,fixed_length:4},"_n":{deserialize:L9,fixed_length:4},"_bigarray":{deserialize:function(a,b){return t4(a,b,"_bigarray")},serialize:t7,compare:t2,hash:t6},"_bigarr02":{deserialize:function(a,b){return t4(a,b,i3)},serialize:t7,compare:t2,hash:t6}};function
+l_(a){return ub[a.caml_custom]&&ub[a.caml_custom].compare}function
+t$(f,c,d,e){var
+b=l_(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-mc(a){return a
+me(a){return a
 instanceof
-cI}function
-ug(a){return mc(a)}function
-t_(a){if(typeof
-a==="number")return i0;else
-if(mc(a))return 252;else
-if(ug(a))return 1252;else
+cJ}function
+ui(a){return me(a)}function
+ua(a){if(typeof
+a==="number")return i1;else
+if(me(a))return 252;else
+if(ui(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==iQ?0:b}else
+b=a[0]|0;return b==iR?0:b}else
 if(a
 instanceof
-String)return tn;else
+String)return tp;else
 if(typeof
-a=="string")return tn;else
+a=="string")return tp;else
 if(a
 instanceof
-Number)return i0;else
-if(a&&a.caml_custom)return lS;else
+Number)return i1;else
+if(a&&a.caml_custom)return lU;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-LW(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-t7(a,b){a.t&6&&fA(a);b.t&6&&fA(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-uo(a,b){return t7(a,b)}function
-l7(a,b,d){var
+L0(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+t9(a,b){a.t&6&&fA(a);b.t&6&&fA(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+uq(a,b){return t9(a,b)}function
+l9(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=t_(a);if(f==sX){a=a[1];continue}var
-g=t_(b);if(g==sX){b=b[1];continue}if(f!==g){if(f==i0){if(g==lS)return t9(a,b,-1,d);return-1}if(g==i0){if(f==lS)return t9(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:a9(lH);break;case
+f=ua(a);if(f==sZ){a=a[1];continue}var
+g=ua(b);if(g==sZ){b=b[1];continue}if(f!==g){if(f==i1){if(g==lU)return t$(a,b,-1,d);return-1}if(g==i1){if(f==lU)return t$(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:a9(lJ);break;case
 248:var
-c=LW(a[2],b[2]);if(c!=0)return c|0;break;case
-249:a9(lH);break;case
+c=L0(a[2],b[2]);if(c!=0)return c|0;break;case
+249:a9(lJ);break;case
 250:a9("equal: got Forward_tag, should not happen");break;case
 251:a9("equal: abstract value");break;case
 252:if(a!==b){var
-c=t7(a,b);if(c!=0)return c|0}break;case
+c=t9(a,b);if(c!=0)return c|0}break;case
 253:a9("equal: got Double_tag, should not happen");break;case
 254:a9("equal: got Double_array_tag, should not happen");break;case
 255:a9("equal: got Custom_tag, should not happen");break;case
-1247:a9(lH);break;case
+1247:a9(lJ);break;case
 1255:var
-i=l8(a);if(i!=l8(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)a9("compare: abstract value");var
+i=l_(a);if(i!=l_(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)a9("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -405,130 +405,130 @@ a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;ca
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-LK(a,b){return l7(a,b,true)}function
-cK(a){if(a<0)a9("Bytes.create");return new
-cI(a?2:9,ai,a)}function
-ua(a,b){return+(l7(a,b,false)==0)}function
-LM(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=ai;a.t=2}else{a.c=un(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)i7(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-L6=0;function
-uc(){return L6++}function
-LY(a){return a.toUtf16()}function
-gW(){return typeof
+LO(a,b){return l9(a,b,true)}function
+cL(a){if(a<0)a9("Bytes.create");return new
+cJ(a?2:9,ai,a)}function
+uc(a,b){return+(l9(a,b,false)==0)}function
+LQ(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=ai;a.t=2}else{a.c=up(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)i8(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+L_=0;function
+ue(){return L_++}function
+L2(a){return a.toUtf16()}function
+gX(){return typeof
 $.process!=="undefined"&&typeof
 $.process.versions!=="undefined"&&typeof
 $.process.versions.node!=="undefined"}function
-Mh(){function
+Ml(){function
 a(a){if(a.charAt(0)===cn)return[ai,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||ai,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||ai,f=a[2]||ai;return[d,c.substring(d.length+f.length)]}return}return gW()&&$.process&&$.process.platform?$.process.platform==="win32"?b:a:a}var
-mj=Mh();function
-up(a){return a.slice(-1)!==cn?a+cn:a}if(gW()&&$.process&&$.process.cwd)var
-gT=$.process.cwd().replace(/\\/g,cn);else
+d=a[1]||ai,f=a[2]||ai;return[d,c.substring(d.length+f.length)]}return}return gX()&&$.process&&$.process.platform?$.process.platform==="win32"?b:a:a}var
+ml=Ml();function
+ur(a){return a.slice(-1)!==cn?a+cn:a}if(gX()&&$.process&&$.process.cwd)var
+gU=$.process.cwd().replace(/\\/g,cn);else
 var
-gT="/static";gT=up(gT);function
-L0(a){a=LY(a);if(!mj(a))a=gT+a;var
-e=mj(a),d=e[1].split(cn),b=[];for(var
+gU="/static";gU=ur(gU);function
+L4(a){a=L2(a);if(!ml(a))a=gU+a;var
+e=ml(a),d=e[1].split(cn),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-Mc(e){for(var
+Mg(e){for(var
 f=ai,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<cl){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<cl;d++);if(d-c>sA){b.substr(0,1);f+=b;b=ai;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<sW){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(cl|a&ft)}else
-if(a<0xd800||a>=s3)b+=String.fromCharCode(s5|a>>12,cl|a>>6&ft,cl|a&ft);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<sO||h>s3)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(tb|a>>18,cl|a>>12&ft,cl|a>>6&ft,cl|a&ft)}if(b.length>gK){b.substr(0,1);f+=b;b=ai}}return f+b}function
-LH(a){var
-b=9;if(!us(a))b=8,a=Mc(a);return new
-cI(b,a,a.length)}function
-fC(a){return LH(a)}var
-Mk=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",sI,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",lP,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",lU,sN,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+d=c+1;d<g&&(a=e.charCodeAt(d))<cl;d++);if(d-c>sC){b.substr(0,1);f+=b;b=ai;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<sY){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(cl|a&ft)}else
+if(a<0xd800||a>=s5)b+=String.fromCharCode(s7|a>>12,cl|a>>6&ft,cl|a&ft);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<sQ||h>s5)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(td|a>>18,cl|a>>12&ft,cl|a>>6&ft,cl|a&ft)}if(b.length>gL){b.substr(0,1);f+=b;b=ai}}return f+b}function
+LL(a){var
+b=9;if(!uu(a))b=8,a=Mg(a);return new
+cJ(b,a,a.length)}function
+fC(a){return LL(a)}var
+Mo=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",sK,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",lR,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",lW,sP,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
 eD(d,f,e,a){var
-b=Mk.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+b=Mo.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
 c=[b,fC(f||ai),fC(e||ai)];return c}var
-ui={};function
-eA(a){return ui[a]}function
+uk={};function
+eA(a){return uk[a]}function
 eB(b,a){throw[0,b].concat(a)}function
-LG(a){return new
-cI(4,a,a.length)}function
-az(a){me(aO.Sys_error,a)}function
-L9(a){az(a+iN)}function
-t6(){a9(l0)}function
-LF(b,a){if(a>>>0>=b.l)t6();return l6(b,a)}function
-i$(a){return a.l}function
-tZ(){}function
+LK(a){return new
+cJ(4,a,a.length)}function
+az(a){mg(aQ.Sys_error,a)}function
+Mb(a){az(a+iO)}function
+t8(){a9(l2)}function
+LJ(b,a){if(a>>>0>=b.l)t8();return l8(b,a)}function
+ja(a){return a.l}function
+t1(){}function
 a7(a){this.data=a}a7.prototype=new
-tZ();a7.prototype.truncate=function(a){var
-b=this.data;this.data=cK(a|0);gS(b,0,this.data,0,a)};a7.prototype.length=function(){return i$(this.data)};a7.prototype.write=function(b,d,g,a){var
+t1();a7.prototype.truncate=function(a){var
+b=this.data;this.data=cL(a|0);gT(b,0,this.data,0,a)};a7.prototype.length=function(){return ja(this.data)};a7.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=cK(b+a),f=this.data;this.data=e;gS(f,0,this.data,0,c)}fy(d,g,this.data,b,a);return 0};a7.prototype.read=function(c,a,d,b){var
-e=this.length();gS(this.data,c,a,d,b);return 0};a7.prototype.read_one=function(a){return LF(this.data,a)};a7.prototype.close=function(){};a7.prototype.constructor=a7;function
+e=cL(b+a),f=this.data;this.data=e;gT(f,0,this.data,0,c)}fy(d,g,this.data,b,a);return 0};a7.prototype.read=function(c,a,d,b){var
+e=this.length();gT(this.data,c,a,d,b);return 0};a7.prototype.read_one=function(a){return LJ(this.data,a)};a7.prototype.close=function(){};a7.prototype.constructor=a7;function
 bn(b,a){this.content={};this.root=b;this.lookupFun=a}bn.prototype.nm=function(a){return this.root+a};bn.prototype.create_dir_if_needed=function(d){var
 c=d.split(cn),b=ai;for(var
 a=0;a<c.length-1;a++){b+=c[a]+cn;if(this.content[b])continue;this.content[b]=Symbol("directory")}};bn.prototype.slash=function(a){return/\/$/.test(a)?a:a+cn};bn.prototype.lookup=function(a){if(!this.content[a]&&this.lookupFun){var
 c=this.lookupFun(b(this.root),b(a));if(c!==0){this.create_dir_if_needed(a);this.content[a]=new
 a7(fz(c[1]))}}};bn.prototype.exists=function(a){if(a==ai)return 1;var
 b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};bn.prototype.mkdir=function(c,e,d){var
-b=d&&eA(lL);if(this.exists(c))if(b)eB(b,eD(sI,lK,this.nm(c)));else
+b=d&&eA(lN);if(this.exists(c))if(b)eB(b,eD(sK,lM,this.nm(c)));else
 az(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||ai;if(!this.exists(a))if(b)eB(b,eD(lP,lK,this.nm(a)));else
-az(a+iN);if(!this.is_dir(a))if(b)eB(b,eD(lU,lK,this.nm(a)));else
-az(a+l2);this.create_dir_if_needed(this.slash(c))};bn.prototype.rmdir=function(a,f){var
-b=f&&eA(lL),c=a==ai?ai:this.slash(a),e=new
-RegExp(lY+c+sP);if(!this.exists(a))if(b)eB(b,eD(lP,lI,this.nm(a)));else
-az(a+iN);if(!this.is_dir(a))if(b)eB(b,eD(lU,lI,this.nm(a)));else
-az(a+l2);for(var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||ai;if(!this.exists(a))if(b)eB(b,eD(lR,lM,this.nm(a)));else
+az(a+iO);if(!this.is_dir(a))if(b)eB(b,eD(lW,lM,this.nm(a)));else
+az(a+l4);this.create_dir_if_needed(this.slash(c))};bn.prototype.rmdir=function(a,f){var
+b=f&&eA(lN),c=a==ai?ai:this.slash(a),e=new
+RegExp(l0+c+sR);if(!this.exists(a))if(b)eB(b,eD(lR,lK,this.nm(a)));else
+az(a+iO);if(!this.is_dir(a))if(b)eB(b,eD(lW,lK,this.nm(a)));else
+az(a+l4);for(var
 d
 in
-this.content)if(d.match(e))if(b)eB(b,eD(sN,lI,this.nm(a)));else
+this.content)if(d.match(e))if(b)eB(b,eD(sP,lK,this.nm(a)));else
 az(this.nm(a)+": Directory not empty");delete
 this.content[c]};bn.prototype.readdir=function(a){var
-f=a==ai?ai:this.slash(a);if(!this.exists(a))az(a+iN);if(!this.is_dir(a))az(a+l2);var
+f=a==ai?ai:this.slash(a);if(!this.exists(a))az(a+iO);if(!this.is_dir(a))az(a+l4);var
 g=new
-RegExp(lY+f+sP),d={},c=[];for(var
+RegExp(l0+f+sR),d={},c=[];for(var
 e
 in
 this.content){var
 b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};bn.prototype.is_dir=function(a){if(a==ai)return true;var
 b=this.slash(a);return this.content[b]?1:0};bn.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};bn.prototype.open=function(a,b){if(b.rdonly&&b.wronly)az(this.nm(a)+tD);if(b.text&&b.binary)az(this.nm(a)+ss);this.lookup(a);if(this.content[a]){if(this.is_dir(a))az(this.nm(a)+" : is a directory");if(b.create&&b.excl)az(this.nm(a)+tz);var
+this.content[a];return b};bn.prototype.open=function(a,b){if(b.rdonly&&b.wronly)az(this.nm(a)+tF);if(b.text&&b.binary)az(this.nm(a)+su);this.lookup(a);if(this.content[a]){if(this.is_dir(a))az(this.nm(a)+" : is a directory");if(b.create&&b.excl)az(this.nm(a)+tB);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-a7(cK(0));return this.content[a]}else
-L9(this.nm(a))};bn.prototype.register=function(c,a){var
-b;if(this.content[c])az(this.nm(c)+tz);if(mc(a))b=new
-a7(a);if(ug(a))b=new
+a7(cL(0));return this.content[a]}else
+Mb(this.nm(a))};bn.prototype.register=function(c,a){var
+b;if(this.content[c])az(this.nm(c)+tB);if(me(a))b=new
+a7(a);if(ui(a))b=new
 a7(fz(a));else
 if(a
 instanceof
 Array)b=new
-a7(LG(a));else
+a7(LK(a));else
 if(typeof
 a==="string")b=new
-a7(t8(a));else
+a7(t_(a));else
 if(a.toString){var
 d=fz(fC(a.toString()));b=new
 a7(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
 az(this.nm(c)+" : registering file with invalid content type")};bn.prototype.constructor=bn;function
-aI(a){return i$(a)}function
-eC(b,a){return l6(b,a)}function
-LB(d){var
+aI(a){return ja(a)}function
+eC(b,a){return l8(b,a)}function
+LF(d){var
 c=aI(d),b=new
 Array(c),a=0;for(;a<c;a++)b[a]=eC(d,a);return b}function
-LA(a){if(a.t!=4)i7(a);return a.c}function
-LJ(a,c,b){b&=df;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}i7(a)}a.c[c]=b;return 0}function
-LI(b,a,c){if(a>>>0>=b.l)t6();return LJ(b,a,c)}function
-cJ(a){this.fs=require("fs");this.fd=a}cJ.prototype=new
-tZ();cJ.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){az(a.toString())}};cJ.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){az(a.toString())}};cJ.prototype.write=function(f,b,c,e){var
-a=LB(b);if(!(a
+LE(a){if(a.t!=4)i8(a);return a.c}function
+LN(a,c,b){b&=df;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}i8(a)}a.c[c]=b;return 0}function
+LM(b,a,c){if(a>>>0>=b.l)t8();return LN(b,a,c)}function
+cK(a){this.fs=require("fs");this.fd=a}cK.prototype=new
+t1();cK.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){az(a.toString())}};cK.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){az(a.toString())}};cK.prototype.write=function(f,b,c,e){var
+a=LF(b);if(!(a
 instanceof
 $.Uint8Array))a=new($.Uint8Array)(a);var
-d=$.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){az(a.toString())}return 0};cJ.prototype.read=function(g,d,c,f){var
-a=LA(d);if(!(a
+d=$.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){az(a.toString())}return 0};cK.prototype.read=function(g,d,c,f){var
+a=LE(d);if(!(a
 instanceof
 $.Uint8Array))a=new($.Uint8Array)(a);var
 e=$.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){az(a.toString())}for(var
-b=0;b<f;b++)LI(d,c+b,e[c+b]);return 0};cJ.prototype.read_one=function(c){var
-b=new($.Uint8Array)(1),a=$.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){az(a.toString())}return a[0]};cJ.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){az(a.toString())}};cJ.prototype.constructor=cJ;function
+b=0;b<f;b++)LM(d,c+b,e[c+b]);return 0};cK.prototype.read_one=function(c){var
+b=new($.Uint8Array)(1),a=$.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){az(a.toString())}return a[0]};cK.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){az(a.toString())}};cK.prototype.constructor=cK;function
 a8(a){this.fs=require("fs");this.root=a}a8.prototype.nm=function(a){return this.root+a};a8.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};a8.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};a8.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};a8.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};a8.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){az(a.toString())}};a8.prototype.unlink=function(a,c){try{var
 b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};a8.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
@@ -536,11 +536,11 @@ e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-cJ(d)}catch(a){this.raise_nodejs_error(a,g)}};a8.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};a8.prototype.stat=function(b,c){try{var
+cK(d)}catch(a){this.raise_nodejs_error(a,g)}};a8.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};a8.prototype.stat=function(b,c){try{var
 a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};a8.prototype.lstat=function(b,c){try{var
 a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};a8.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};a8.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),se);return fC(a)}catch(a){this.raise_nodejs_error(a,c)}};a8.prototype.raise_nodejs_error=function(a,d){var
-b=eA(lL);if(d&&b){var
+a=this.fs.readlinkSync(this.nm(b),sg);return fC(a)}catch(a){this.raise_nodejs_error(a,c)}};a8.prototype.raise_nodejs_error=function(a,d){var
+b=eA(lN);if(d&&b){var
 c=eD(a.code,a.syscall,a.path,a.errno);eB(b,c)}else
 az(a.toString())};a8.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
@@ -550,28 +550,28 @@ if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
 if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};a8.prototype.constructor=a8;function
-ud(b){var
-a=mj(b);if(!a)return;return a[0]+cn}var
-ja=ud(gT)||co("unable to compute caml_root"),fD=[];if(gW())fD.push({path:ja,device:new
-a8(ja)});else
-fD.push({path:ja,device:new
-bn(ja)});fD.push({path:sn,device:new
-bn(sn)});function
-uy(b){var
-g=L0(b),b=g.join(cn),f=up(b),c;for(var
+uf(b){var
+a=ml(b);if(!a)return;return a[0]+cn}var
+jb=uf(gU)||co("unable to compute caml_root"),fD=[];if(gX())fD.push({path:jb,device:new
+a8(jb)});else
+fD.push({path:jb,device:new
+bn(jb)});fD.push({path:sp,device:new
+bn(sp)});function
+uA(b){var
+g=L4(b),b=g.join(cn),f=ur(b),c;for(var
 e=0;e<fD.length;e++){var
-a=fD[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&gW()){var
-d=ud(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+a=fD[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&gX()){var
+d=uf(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
 a8(d)};fD.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;az("no device found for "+f)}function
-LL(c,b){var
-a=uy(c);if(!a.device.register)co("cannot register file");a.device.register(a.rest,b);return 0}function
-ur(c,a){var
-c=b(c),a=b(a);return LL(c,a)}function
-LO(){var
+LP(c,b){var
+a=uA(c);if(!a.device.register)co("cannot register file");a.device.register(a.rest,b);return 0}function
+ut(c,a){var
+c=b(c),a=b(a);return LP(c,a)}function
+LS(){var
 b=$.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)ur(b[a].name,b[a].content);$.jsoo_create_file=ur;$.caml_fs_tmp=[];return 0}function
-L7(c){var
+a=0;a<b.length;a++)ut(b[a].name,b[a].content);$.jsoo_create_file=ut;$.caml_fs_tmp=[];return 0}function
+L$(c){var
 a=0,e=aI(c),b=10,d=1;if(e>0)switch(eC(c,a)){case
 45:a++;d=-1;break;case
 43:a++;d=1;break}if(a+1<e&&eC(c,a)==48)switch(eC(c,a+1)){case
@@ -583,33 +583,33 @@ a=0,e=aI(c),b=10,d=1;if(e>0)switch(eC(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-uj(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=tQ)return a-87;return-1}function
-i_(f){var
-h=L7(f),c=h[0],i=h[1],d=h[2],g=aI(f),j=-1>>>0,e=c<g?eC(f,c):0,b=uj(e);if(b<0||b>=d)co(iT);var
-a=b;for(c++;c<g;c++){e=eC(f,c);if(e==95)continue;b=uj(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)co(iT)}if(c!=g)co(iT);a=i*a;if(d==10&&(a|0)!=a)co(iT);return a|0}function
-LZ(a,b){return+(l7(a,b,false)<=0)}function
-L1(a,d){if(a<0)i6();var
+ul(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=tS)return a-87;return-1}function
+i$(f){var
+h=L$(f),c=h[0],i=h[1],d=h[2],g=aI(f),j=-1>>>0,e=c<g?eC(f,c):0,b=ul(e);if(b<0||b>=d)co(iU);var
+a=b;for(c++;c<g;c++){e=eC(f,c);if(e==95)continue;b=ul(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)co(iU)}if(c!=g)co(iU);a=i*a;if(d==10&&(a|0)!=a)co(iU);return a|0}function
+L3(a,b){return+(l9(a,b,false)<=0)}function
+L5(a,d){if(a<0)i7();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
 di=new
 Array();function
-L2(c){var
-a=di[c];if(!a.opened)az("Cannot flush a closed channel");if(!a.buffer||a.buffer==ai)return 0;if(a.fd&&aO.fds[a.fd]&&aO.fds[a.fd].output){var
-b=aO.fds[a.fd].output;switch(b.length){case
+L6(c){var
+a=di[c];if(!a.opened)az("Cannot flush a closed channel");if(!a.buffer||a.buffer==ai)return 0;if(a.fd&&aQ.fds[a.fd]&&aQ.fds[a.fd].output){var
+b=aQ.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=ai;return 0}function
-um(e,f){var
+uo(e,f){var
 a=di[e],d=b(f),c=aI(d);a.file.write(a.offset,d,0,c);a.offset+=c;return 0}function
-Md(a){var
-a=mg(a),b=$;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+Mh(a){var
+a=mi(a),b=$;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-Me(a){var
-a=mg(a),b=$;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+Mi(a){var
+a=mi(a),b=$;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-jc(c,e,d,a){if(aO.fds===undefined)aO.fds=new
+jd(c,e,d,a){if(aQ.fds===undefined)aQ.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;aO.fds[c]=b;if(!aO.fd_last_idx||c>aO.fd_last_idx)aO.fd_last_idx=c;return c}function
-Ml(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;aQ.fds[c]=b;if(!aQ.fd_last_idx||c>aQ.fd_last_idx)aQ.fd_last_idx=c;return c}function
+Mp(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,177 +619,177 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)az(fB(c)+tD);if(a.text&&a.binary)az(fB(c)+ss);var
-d=uy(c),e=d.device.open(d.rest,a),f=aO.fd_last_idx?aO.fd_last_idx:0;return jc(f+1,um,e,a)}jc(0,um,new
-a7(cK(0)));jc(1,Me,new
-a7(cK(0)));jc(2,Md,new
-a7(cK(0)));function
-L3(a){var
-c=aO.fds[a];if(c.flags.wronly)az(tO+a+" is writeonly");var
-d=null;if(a==0&&gW()){var
-e=require("fs");d=function(){return fC(e.readFileSync(0,se))}}var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)az(fB(c)+tF);if(a.text&&a.binary)az(fB(c)+su);var
+d=uA(c),e=d.device.open(d.rest,a),f=aQ.fd_last_idx?aQ.fd_last_idx:0;return jd(f+1,uo,e,a)}jd(0,uo,new
+a7(cL(0)));jd(1,Mi,new
+a7(cL(0)));jd(2,Mh,new
+a7(cL(0)));function
+L7(a){var
+c=aQ.fds[a];if(c.flags.wronly)az(tQ+a+" is writeonly");var
+d=null;if(a==0&&gX()){var
+e=require("fs");d=function(){return fC(e.readFileSync(0,sg))}}var
 b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};di[b.fd]=b;return b.fd}function
-uh(c){var
-b=aO.fds[c];if(b.flags.rdonly)az(tO+c+" is readonly");var
+uj(c){var
+b=aQ.fds[c];if(b.flags.rdonly)az(tQ+c+" is readonly");var
 a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:ai};di[a.fd]=a;return a.fd}function
-L4(){var
+L8(){var
 b=0;for(var
 a=0;a<di.length;a++)if(di[a]&&di[a].opened&&di[a].out)b=[0,di[a].fd,b];return b}function
-b4(b,c,a){if(a&&$.toplevelReloc)b=$.toplevelReloc(a);aO[b+1]=c;if(a)aO[a]=c}function
-L$(a,b){ui[fB(a)]=b;return 0}function
-LE(a,b){if(a===b)return 1;a.t&6&&fA(a);b.t&6&&fA(b);return a.c==b.c?1:0}function
-aM(a,b){return LE(a,b)}function
-Mb(){a9(l0)}function
-be(b,a){if(a>>>0>=aI(b))Mb();return eC(b,a)}function
+b5(b,c,a){if(a&&$.toplevelReloc)b=$.toplevelReloc(a);aQ[b+1]=c;if(a)aQ[a]=c}function
+Md(a,b){uk[fB(a)]=b;return 0}function
+LI(a,b){if(a===b)return 1;a.t&6&&fA(a);b.t&6&&fA(b);return a.c==b.c?1:0}function
+aM(a,b){return LI(a,b)}function
+Mf(){a9(l2)}function
+be(b,a){if(a>>>0>=aI(b))Mf();return eC(b,a)}function
 p(a,b){return 1-aM(a,b)}function
-jb(a){return a}function
-ul(a){return a}function
-uq(a){if(a
+jc(a){return a}function
+un(a){return a}function
+us(a){if(a
 instanceof
 Array)return a;if($.RangeError&&a
 instanceof
-$.RangeError&&a.message&&a.message.match(/maximum call stack/i))return ul(aO.Stack_overflow);if($.InternalError&&a
+$.RangeError&&a.message&&a.message.match(/maximum call stack/i))return un(aQ.Stack_overflow);if($.InternalError&&a
 instanceof
-$.InternalError&&a.message&&a.message.match(/too much recursion/i))return ul(aO.Stack_overflow);if(a
+$.InternalError&&a.message&&a.message.match(/too much recursion/i))return un(aQ.Stack_overflow);if(a
 instanceof
-$.Error&&eA(sU))return[0,eA(sU),a];return[0,aO.Failure,fC(String(a))]}function
-cL(a){return a<0?-a:a}function
+$.Error&&eA(sW))return[0,eA(sW),a];return[0,aQ.Failure,fC(String(a))]}function
+cM(a){return a<0?-a:a}function
 G(a,b){return a+b}function
-mh(a,b){return a<b?-1:a>b?1:0}function
-uu(c,b){var
-a=c%b;return a<0?a+cL(b):a}function
-mi(a,b){return(a-uu(a,b))/b}function
+mj(a,b){return a<b?-1:a>b?1:0}function
+uw(c,b){var
+a=c%b;return a<0?a+cM(b):a}function
+mk(a,b){return(a-uw(a,b))/b}function
 H(a,b){return a==b?1:0}function
-Mi(c){$.orthocert_verify=function(a){return fB(dg(c,[b(a)]))}}function
+Mm(c){$.orthocert_verify=function(a){return fB(dg(c,[b(a)]))}}function
 D(a,b){return a<=b?1:0}function
 I(a,b){return a<b?1:0}function
 E(a,b){return a*b}function
 W(a){return-a}function
-aS(a){return $.BigInt(a)}var
-ux=[];function
-ut(a){return ux[a]||(ux[a]=$.BigInt(a))}function
-uv(a,b){return a<<ut(b)}function
-uw(a,b){return a>>ut(b)}function
+aT(a){return $.BigInt(a)}var
+uz=[];function
+uv(a){return uz[a]||(uz[a]=$.BigInt(a))}function
+ux(a,b){return a<<uv(b)}function
+uy(a,b){return a>>uv(b)}function
 a1(a){return a<0?-1:a>0?1:0}function
-Mj(a){if(a<0)throw new($.Error)("a root of a negative number");if(a<2)return a;var
+Mn(a){if(a<0)throw new($.Error)("a root of a negative number");if(a<2)return a;var
 d=$.BigInt(1),b=d<<$.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
 aX(a,b){return a-b}function
-jd(b){var
+je(b){var
 a=$.Number(b);if(a!==(a|0))throw new($.Error)("a number of more than 32 bits");return a}function
-LX(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-LN(b){var
-a=ai;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&LX(b[1]))var
+L1(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+LR(b){var
+a=ai;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&L1(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=sV;for(var
+f=2,e=b;a+=sX;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-cI)a+=a0+c.toString()+a0;else
+cJ)a+=a0+c.toString()+a0;else
 if(typeof
 c=="string")a+=a0+c.toString()+a0;else
-a+="_"}a+=lX}else
+a+="_"}a+=lZ}else
 if(b[0]==bd)a+=b[1];return a}function
-ub(a){if(a
+ud(a){if(a
 instanceof
 Array&&(a[0]==0||a[0]==bd)){var
 c=eA("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=LN(a),b=eA(sd);if(b)b(0);$.console.error("Fatal error: exception "+d+"\n")}}else
+d=LR(a),b=eA(sf);if(b)b(0);$.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-Ma(){var
-a=$;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){ub(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)ub(a.error)})}Ma();function
+Me(){var
+a=$;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){ud(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)ud(a.error)})}Me();function
 h(a,b){return a.length==1?a(b):dg(a,[b])}function
 au(a,b,c){return a.length==2?a(b,c):dg(a,[b,c])}function
 fm(a,b,c,d){return a.length==3?a(b,c,d):dg(a,[b,c,d])}function
-gD(a,b,c,d,e){return a.length==4?a(b,c,d,e):dg(a,[b,c,d,e])}function
-Lz(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):dg(a,[b,c,d,e,f])}LO();var
-ml=[bd,b(sL),-2],mk=[bd,b(tY),-4],KG=[0,[0,[0,[0,0]]]],KH=[0,0],KI=[0,0],KJ=[0,[0,0]],KK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KJ]]]]]]]]]]],iw=[0,[1,0],0],rr=[0,[2,0],0],ll=[0,[1,0],0],rq=[0,[2,0],0],iu=[0,[1,0],0],lk=[0,[2,0],0],KL=[0,[0,[0,[0,0]]]],KM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KL]]]]]]]]]]],KN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KM]]]]]]]]]]],KO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KN]]]]]]]]]]],KP=[0,[0,0]],KQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KP]]]]]]]]]]],KR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KQ]]]]]]]]]]],KS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KR]]]]]]]]]]],KT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KS]]]]]]]]]]],KU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],KV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KU]]]]]]]]]]],KW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KV]]]]]]]]]]],KX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KW]]]]]]]]]]],KY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KX]]]]]]]]]]],KZ=[0,[0,0]],K0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KZ]]]]]]]]]]],K1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K0]]]]]]]]]]],K2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K1]]]]]]]]]]],K3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K2]]]]]]]]]]],K4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K3]]]]]]]]]]],K5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K4]]]]]]]]]]],K6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K5]]]]]]]]]]],K7=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],K8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K7]]]]]]]]]]],K9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K8]]]]]]]]]]],K_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K9]]]]]]]]]]],K$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K_]]]]]]]]]]],La=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K$]]]]]]]]]]],Lb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,La]]]]]]]]]]],Lc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lb]]]]]]]]]]],Ld=[0,0],Le=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ld]]]]]]]]]]],Lf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Le]]]]]]]]]]],Lg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lf]]]]]]]]]]],Lh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lg]]]]]]]]]]],Li=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lh]]]]]]]]]]],Lj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Li]]]]]]]]]]],Lk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lj]]]]]]]]]]],Ll=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lk]]]]]]]]]]],Lm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ll]]]]]]]]]]],Ln=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lm]]]]]]]]]]],Lo=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Lp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lo]]]]]]]]]]],Lq=[0,0],Lr=[0,[0,0]],Ls=[0,0],Lt=[0,[0,[0,[0,[0,0]]]]],dW=[0,[0,[0,0]]],dY=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],nR=[0,0],ii=[0,[0,[0,[0,0]]]],Lu=[0,[0,[0,[0,[0,0]]]]],Lv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lu]]]]]]]]]]],Lw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lv]]]]]]]]]]],Lx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lw]]]]]]]]]]],Ly=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lx]]]]]]]]]]];b4(11,[bd,b(sb),-12],sb);b4(10,[bd,b(s1),-11],s1);b4(9,[bd,b(tN),-10],tN);b4(8,[bd,b(so),-9],so);b4(7,[bd,b(td),-8],td);b4(6,[bd,b(sm),-7],sm);b4(5,[bd,b(sM),-6],sM);b4(4,[bd,b(sQ),-5],sQ);b4(3,mk,tY);b4(2,[bd,b(lQ),-3],lQ);b4(1,ml,sL);b4(0,[bd,b(tw),-1],tw);var
-uz=b("String.sub / Bytes.sub"),uB=b(ai),uA=b("String.concat"),uC=b("Array.init"),uD=b("power"),u9=[0,0],u_=[0,0],ve=[0,0,0],vf=[0,0,0],vg=[0,0],vz=[0,0],vF=[0,0],vJ=[0,0],vL=[0,0],vM=[0,0],vU=[0,0],wb=[0,0],we=[0,0],wi=[0,0],wj=[0,0],wk=[0,0],wl=[0,0],wz=[0,0],wA=[0,0],w3=[0,0],xr=[0,[0,[0,0]]],x5=[0,0],yw=[0,0],yU=[0,0],y8=b(","),zo=[0,b(lX),0],zp=b(sV),zq=b("."),zr=[0,[0,[0,0]]],zs=b(fv),zt=b(lY),zu=[0,[0,[0,[0,[0,0]]]]],zv=[0,b(lX),0],zw=b(tW),Cz=b(r_),CB=b(r7),CA=b(s4),CC=b(fq),CD=b(fo),CE=b(i5),CF=b(tG),CG=b(sF),CH=b(iZ),CI=b(s9),CJ=b(sE),CK=b(tK),D1=[0,[0,[0,0,0],0]],Eg=[0,0],D2=b(gE),D3=[0,0],D4=b(lW),D5=[0,1],D6=b("mirror"),D7=[0,3],D8=b("negative"),D9=[0,2],D_=b(gJ),D$=[0,5],Ea=b(l4),Eb=[0,4],Ec=b(dM),Ed=b(iP),Ee=b(fr),Ef=b(b2),Eh=[0,0],Ei=[0,0],Ej=[0,0],Em=[0,[0,[0,0]]],En=[0,[0,[0,0]]],EO=[0,[0,[0,0]]],E2=[0,0],Fl=b(ai),Fd=[0,0],Ff=[0,0],Fe=[0,0],Fg=[0,[0,[0,[0,0]]]],Fh=[0,[0,[0,0]]],Fi=[0,[0,[0,[0,0]]]],Fj=[0,[0,[0,0]]],Fb=[0,[0,[0,0]]],Fa=b(fr),E$=[0,0],E9=[0,1,0],E_=[0,[0,[0,0]]],E8=[0,0],E7=[0,0],E6=[0,0],E3=[0,[0,0]],E4=[0,[0,[0,0]]],E0=[0,[0,0]],E1=[0,[0,[0,0]]],EZ=[0,0],EV=[0,[0,[0,0]]],EU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KG]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],EP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],EQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],ER=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],ES=[0,[0,[0,[0,0]]],[0,0,0]],EM=[0,0],EN=[0,[0,0]],EL=[0,0,0],EK=[0,[0,[0,0]]],EE=[0,[0,0]],EF=[0,[0,[0,0]]],EG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KH]]]]]]]]]]],EH=[0,[0,0]],EI=[0,[0,[0,0]]],ED=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KI]]]]]]]]]]],EB=[0,[0,0]],EC=[0,[0,[0,0]]],Ez=[0,[0,[0,0]]],EA=[0,[0,0]],Ey=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KK]]]]]]]]]]],Ex=[0,0],Ew=[0,0],Et=[0,[0,0]],Eu=[0,0],Er=[0,0],Es=[0,1],Ep=[0,[0,0]],Eq=[0,0],Eo=[0,0],Ek=[0,0],El=[0,1],DV=[0,[0,0,0]],DW=[0,[0,1,0]],DX=[0,[0,2,0]],DY=[0,[0,0,1]],DZ=[0,[0,1,1]],D0=[0,[0,2,1]],DR=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],DP=[0,[0,0],0],DQ=[0,[1,0],0],DS=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],DN=[0,[0,0]],DO=[0,0],DM=[0,0],DL=[0,0],DK=[0,0],DJ=[0,0],DI=[0,0,0],DG=[0,[0,0]],DH=[0,0],DF=[0,0,0],DD=[0,[0,[0,0]]],DE=[0,[0,[0,0]]],DC=[0,0],DA=[0,1,0],Dt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KO]]]]]]]]]]],Du=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KT]]]]]]]]]]],Dp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KY]]]]]]]]]]],Dq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K6]]]]]]]]]]],Dr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lc]]]]]]]]]]],Ds=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ln]]]]]]]]]]],Dv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lp]]]]]]]]]]],Dw=b("sqrt"),De=[0,b("\n"),0],Df=b(r8),Dg=b(iO),Dh=b(s0),Di=b(sJ),Do=b(gM),Dj=b(gI),Dk=b("verdict"),Dl=b(tx),Dm=b(sB),Dn=b(sZ),Db=b(sT),Dc=b(tB),Dd=b(iR),C9=b(s$),C_=b(iS),C$=b(gI),Da=b(gM),C4=b(i1),C5=b(bH),C6=b(r9),C7=b(iX),C1=b(tv),C2=b(gJ),C3=b(iX),CX=b(tc),CY=b(i1),CZ=b(iS),C0=b(tL),CM=b(tC),CN=b(tF),CO=b(iW),CP=b(iU),CQ=b(tR),CR=b(tr),CS=b(tu),CT=b(tg),CU=b(iW),CV=b(tj),Cx=b(iM),Cy=b(gL),Cs=b(b3),Ct=b(b1),Cu=b(sD),B4=b(iU),B5=b(tf),BI=b(bH),BJ=b(cm),BK=b(i3),BL=b(fu),BM=b(cG),BR=b(lJ),BN=b(lZ),BO=b(l1),BP=b(fp),BQ=b(bH),BS=b(cm),BT=b(i3),BU=b(fu),BV=b(lZ),BW=b(l1),BX=b(fp),BY=b(bH),BZ=b(cm),B0=b(b3),B1=b(b1),B2=b(ex),B3=b(fu),B6=b(tp),B7=b(tE),B8=b(i4),B9=b(sr),B_=b(sw),B$=b(fp),Ca=b(bH),Cb=b(cm),Cc=b(iK),Cd=b(sH),Ce=b(fu),Cf=b(gR),Cg=b(sg),Ch=b(fp),Ci=b(bH),Cj=b(iK),Ck=b(bH),Cl=b(ti),Co=b(r6),Cm=b(su),Cn=b(tJ),Cp=b(gM),Cq=b(gI),Cr=b(bH),Cv=b(i4),Cw=b(iR),BD=b(cm),BE=b(fu),BF=b(lJ),BG=b(fp),BC=b(tT),Bq=b(gR),Br=b(ty),Bs=b(ey),Bt=b(fs),Bu=b(fs),Bv=b(lM),Bw=b(ey),Bx=b(s2),By=b(sC),Bz=b(bx),BB=b(sa),BA=b(lM),Bg=b(sS),Bh=b(tX),Bi=b(sy),Bj=b(sv),Bk=b(tI),Bl=b(tt),Bm=b(sK),Bn=b(iL),Bo=b(iL),Bc=b(bx),Bd=b(b0),Be=b(fw),Bf=b(bG),A_=b(cG),A$=b(lT),Ba=b(ta),A7=b(b3),A8=b(b1),A9=b(ex),A0=b(b3),A1=b(b1),A2=b(ex),A3=b(lV),A4=b(ey),A5=b(lR),A6=b(to),AI=b(st),AO=b(iO),AN=b(l3),AJ=b(lN),AK=b(gG),AP=b(gH),AR=b(gH),AS=b(tm),AT=b(lN),AQ=b(gG),AU=b(sq),AV=b(tl),AW=b(gG),AX=b(tS),AY=b(l3),AZ=b(gG),AL=b(fs),AM=b(s7),AF=b(iV),AG=b(iV),AH=b(iV),AB=b(tq),AC=b(b1),AD=b(b3),AE=b(tH),Ak=b(sk),Al=b(r$),Am=b(te),An=b(fq),Ao=b(tU),Ap=b(th),Aq=b(sl),Ar=b(s8),As=b(sj),At=b(sG),Au=b(si),Av=b(ts),Aw=b(fo),Ax=b(sf),Ay=b(tA),Az=b(sx),AA=b(tV),zX=b(iY),zZ=b(fv),zY=b(gF),z0=b(fn),z1=b(bx),z2=b(b0),z3=b(b2),z4=b(gN),z5=b(bG),z6=b(gP),z7=b(bx),z8=b(b0),z9=b(fw),z_=b(bG),z$=b(b2),Aa=b(cG),Ab=b(bG),Ac=b(fn),Ad=b(gQ),Ae=b(bx),Af=b(b0),Ag=b(s6),Ah=b(gH),Ai=b(gQ),Aj=b(bG),zF=b(iY),zN=b(fv),zG=b(gF),zH=b(fn),zI=b(bx),zJ=b(b0),zK=b(b2),zL=b(gN),zM=b(bG),zO=b(gP),zP=b(bx),zQ=b(b0),zR=b(fw),zS=b(bG),zT=b(b2),zU=b(cG),zV=b(bG),zC=b(b3),zD=b(b1),zA=[0,b(a0),0],zB=b(a0),zy=b(ai),zx=[0,b(a0),0],zz=b(a0),zk=b(iY),zl=b(fv),zm=b("*"),zn=b(cn),zf=[0,[0,[0,[0,[0,0]]]]],zg=[0,[0,[0,0]]],zh=[0,[0,0]],zi=[0,0],zj=[0,[0,[0,[0,0]]]],zd=b('":'),ze=b(a0),zb=[0,b(a0),0],zc=b(a0),y$=[0,b("}"),0],za=b("{"),y9=[0,b("]"),0],y_=b("["),y7=[0,[0,[0,0]]],y6=[0,[0,[0,0]]],y4=[0,0],y1=[0,[0,[0,0]]],y2=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],y3=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],yZ=[0,[0,0]],y0=[0,[0,[0,0]]],yW=[0,0],yX=[0,[0,0]],yY=[0,0],yV=[0,0],yS=[0,0],yT=[0,[0,0]],yP=[0,0],yQ=[0,[0,0]],yR=[0,0],yK=[0,[0,0]],yL=[0,0],yM=[0,[0,[0,0]]],yN=[0,[0,[0,0]]],yJ=[0,[0,[0,0]]],yI=[0,[0,[0,0]]],yH=[0,0],yE=[0,[0,[0,0]]],yG=[0,[0,[0,0]]],yF=[0,0],yC=[0,[0,0]],yD=[0,0],yA=[0,[0,0]],yB=[0,0],yz=[0,[0,[0,0]]],yx=[0,[0,0]],yy=[0,0],yu=[0,0],yv=[0,[0,0]],yo=[0,[0,0]],yp=[0,[0,[0,[0,[0,0]]]]],yq=[0,[0,[0,[0,0]]]],yr=[0,[0,[0,0]]],ys=[0,[0,0]],yt=[0,0],yl=[0,0],ym=[0,[0,0]],yn=[0,0],yk=[0,0],yg=[0,0],yh=[0,[0,[0,[0,[0,[0,0]]]]]],yi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lq]]]]]]]]]]],ye=[0,0,0],yf=[0,0,0],yb=[0,0,0],yc=[0,0],x9=[0,0,0],x_=[0,0,0],x$=[0,0,0],x6=[0,[0,0]],x7=[0,[0,[0,0]]],x8=[0,0],x1=[0,0],x2=[0,[0,0]],x3=[0,0],x4=[0,[0,0]],xY=[0,0],xZ=[0,[0,0]],x0=[0,0],xW=[0,0,0],xX=[0,0,[0,1,0]],xS=[0,0,0],xT=[0,0,0],xU=[0,0,0],xV=[0,0,0],xP=[0,[0,[0,[0,[0,[0,0]]]]]],xQ=[0,[0,[0,0]]],xR=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],xI=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],xJ=[0,[0,[0,0]]],xK=[0,[0,[0,[0,[0,[0,0]]]]]],xL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lr]]]]]]]]]]],xM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ls]]]]]]]]]]],xN=[0,[0,[0,0]]],xO=[0,[0,[0,[0,[0,[0,0]]]]]],xE=[0,0,0],xF=[0,0,0],xA=[0,0,0],xB=[0,0,0],xC=[0,0,0],xD=[0,0,0],xz=[0,0],xy=[0,0],xx=[0,0],xv=[0,0],xw=[0,0],xu=[0,0],xs=[0,0],xt=[0,0],xk=[0,0],xl=[0,0],xm=[0,0],xn=[0,[0,[0,0]]],xj=[0,0],xd=[0,0],xe=[0,0],xf=[0,[0,0]],xb=[0,[0,0]],xc=[0,[0,[0,0]]],w$=[0,[0,[0,0]]],xa=[0,[0,0]],w9=[0,[0,0]],w_=[0,[0,[0,0]]],w8=[0,0],w6=[0,0],w7=[0,0],w4=[0,0,0],w1=[0,[0,0]],w2=[0,0],wT=[0,[0,0]],wU=[0,0],wV=[0,[0,0]],wW=[0,0],wX=[0,[0,0]],wY=[0,0],wZ=[0,[0,0]],w0=[0,0],wR=[0,[0,0]],wS=[0,0],wP=[0,[0,0]],wQ=[0,0],wL=[0,[0,0]],wM=[0,0],wN=[0,0],wO=[0,[0,0]],wC=[0,[0,0]],wD=[0,0],wE=[0,[0,0]],wF=[0,0],wG=[0,0],wH=[0,[0,0]],wI=[0,[0,0]],wJ=[0,[0,0]],wK=[0,0],wy=[0,0],wx=[0,0],wu=[0,0],wv=[0,[0,0]],wt=[0,[0,[0,0]]],ws=[0,[0,[0,[0,[0,[0,0]]]]]],wq=[0,[0,0]],wr=[0,0],wp=[0,[0,0]],wo=[0,0],wm=[0,0],wn=[0,[0,[0,0]]],wg=[0,[0,0]],wh=[0,[0,[0,0]]],wf=[0,[0,[0,0]]],wc=[0,[0,[0,0]]],wa=[0,[0,[0,0]]],v_=[0,[0,[0,[0,[0,[0,0]]]]]],v$=[0,[0,[0,[0,[0,[0,0]]]]]],v5=[0,[0,0]],v6=[0,0],v7=[0,[0,0]],v8=[0,[0,[0,0]]],v9=[0,[0,[0,0]]],vY=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],vZ=[0,[0,[0,[0,[0,[0,0]]]]]],v0=[0,[0,[0,[0,[0,[0,0]]]]]],v1=[0,[0,[0,0]]],v2=[0,[0,[0,[0,[0,[0,0]]]]]],v3=[0,[0,[0,0]]],v4=[0,[0,[0,0]]],vW=[0,[0,0]],vX=[0,0],vR=[0,0,0],vS=[0,[0,0,0],0],vT=[0,0,0],vP=[0,0,0],vQ=[0,[0,0,0],0],vO=[0,0,0],vN=[0,[0,[0,0]]],vK=[0,0,2],vH=[0,0],vI=[0,[0,0]],vA=[0,0],vB=[0,0],vC=[0,0],vD=[0,0],vx=[0,0],vy=[0,0],vv=[0,0,0],vs=[0,[0,[0,0]]],vt=[0,[0,[0,0]]],vu=[0,[0,[0,0]]],vr=[0,[0,[0,[0,0]]]],vn=[0,[0,[0,0]]],vo=[0,[0,[0,0]]],vp=[0,[0,[0,0]]],vq=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],vl=[0,[0,0]],vm=[0,0],vj=[0,[0,0]],vk=[0,0],vh=[0,[0,0]],vi=[0,0],u6=[0,0],u7=[0,[0,0]],u4=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],u5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lt]]]]]]]]]]],u2=[0,0,0],u0=[0,[0,[0,[0,[0,0]]]]],uQ=[0,0],uR=[0,[0,0]],uS=[0,[0,[0,0]]],uT=[0,[0,[0,[0,0]]]],uU=[0,[0,[0,[0,[0,0]]]]],uV=[0,[0,[0,[0,[0,[0,0]]]]]],uW=[0,[0,[0,[0,[0,[0,[0,0]]]]]]],uX=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],uY=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],uZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],uO=b(tP),uN=b(ai),uM=[0,[0,0]],uK=[0,0],uH=[0,0],uJ=[1,0],uI=[0,0],uG=[0,0],uE=[1,0],uF=[1,0],vG=[0,[0,[0,[0,[0,[0,0]]]]]],ww=[10,0,0,0,0],E5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ly]]]]]]]]]]],IB=b(b3),IC=b(b1),ID=b(sD),It=b(gP),Iu=[0,b("a base axis of such a platform"),0],Iv=b(bx),Iw=b(b0),Ig=b(tt),Ih=b(sS),Ii=b(tI),Ij=b(iL),Ik=b(sK),Il=b(iL),Im=b(tX),In=b(sy),Io=b(sv),H6=b(tf),H7=b(iU),HI=[0,b("such a machine with bodies"),0],Hv=b(iR),Hw=b(bH),Hx=b(ti),Hy=b(tJ),HB=b(su),HC=b(r6),HD=b(bH),HE=b(bH),HG=b(iK),HF=[0,b("a claim that no cube of such a machine fits"),0],HH=b(tT),HJ=b(fp),HK=b(fu),HL=b(cG),HM=b(lT),HN=b(ta),HO=b(i3),HP=b(sw),HQ=b(sg),HR=b(lJ),HU=b(ex),HV=b(to),HY=b(cm),HZ=b(cm),H0=b(sH),H1=b(cm),H2=[0,b("the closed design with other bounds on psi than one from below and one from above"),0],H3=b(iK),H4=b(gR),H5=b(ex),H8=b(tE),H9=b(tp),H_=[0,b(" operations, with its definitions written out,"),0],H$=b("a mechanism of more than "),Ia=b(cm),Ib=b(b3),Ic=b(b1),Id=b(i4),Ie=b(sr),HS=[0,b(a0),0],HT=b('the mechanism "'),If=b(lZ),Ip=b(i3),Iq=b(cG),Ir=b(lT),Is=b(l1),Ix=b(cm),IA=b(cG),Iy=[0,b("a platform that turns on struts and other drives"),0],Iz=b(cm),HW=[0,b(a0),0],HX=b('the workspace "'),IE=b(bH),IF=b(bH),IH=b(gM),II=b(gI),IJ=b(i4),IG=[0,b("an atlas of such a machine"),0],Hz=[0,b(a0),0],HA=b('a claim of the kind "'),IY=b(i5),IZ=b(dM),I0=b(iP),I1=b(fr),I2=b(iZ),I3=b(lW),I4=b(gE),I5=b(i5),I6=b(iP),I7=b(iZ),I8=b(lW),I9=[0,b('this evidence "fan"'),0],IO=b(dM),Ji=b(gL),Jj=[0,1,1],IP=b(s9),I$=b(fo),Ja=b(sE),Jb=b(fq),Jc=b(sF),Jd=b(s4),Je=b(b2),Jf=b(gL),Jg=b(iM),Jh=b(b2),IQ=b(i5),IR=b(dM),IS=b(iP),IT=b(fr),IU=b(tK),IV=b(iZ),I_=[0,b('evidence "fan" about "divided" and other rows'),0],IW=[0,b(a0),0],IX=b('the evidence "'),Jk=b(fo),Jl=b(fq),Jm=b(dM),Jn=b(fr),Jo=b(tG),Jq=b(fo),Jr=b(fq),Js=b(dM),Jt=b(fr),Ju=b(gJ),Jv=b(gE),Jw=b(gJ),Jx=b(gE),Jp=[0,b("this evidence at control points"),0],Kz=b('"orthocert-paving/'),Kq=b(dM),Kr=b(dM),Kd=b(sZ),Ke=b(sB),Kf=b(tx),Kx=[0,3,3],Kg=b(sJ),Ko=[0,b("this set of orientations with such drives"),0],Kp=[0,b(sc),0],Ks=[0,b('this evidence "tolerances" of a platform that turns'),0],Kt=[0,b("a step of a platform that turns that is not at control points"),0],Ku=[0,b("this quantity in a claim that is refuted"),0],Kv=[0,b("a step in a proof that no cube fits"),0],Kw=[0,b('the failure "same" of such a mechanism'),0],Kh=[0,b(sc),0],Km=[0,b("a stiffness for each joint in such a claim"),0],Kn=[0,b(tk),0],Kl=[0,b(tk),0],Ki=b(s0),Kj=b(r8),Kk=b(iO),J$=b(l4),Ka=b(gE),Kb=b(b2),J3=b(iR),J4=b(sT),J5=b(tB),J6=[0,b(a0),0],J7=b('a proof of the kind "'),JZ=b(gI),J0=b(gM),J1=b(iS),J2=b(s$),JV=b(bH),JW=b(i1),JX=b(r9),JY=b(iX),JS=b(tv),JT=b(gJ),JU=b(iX),JO=b(tc),JP=b(i1),JQ=b(iS),JR=b(tL),JA=b(tF),JB=b(iW),JC=b(tC),JD=b(iU),JE=b(tj),JF=b(tR),JI=b(tr),JJ=b(iM),JK=b(gL),JL=b(tu),JM=b(tg),JN=b(iW),JG=[0,b(a0),0],JH=b('the failure "'),Jy=b(l4),Jz=b(tP),IM=b(gL),IN=b(iM),IK=b(r7),IL=b(r_),Hs=b(gR),Hi=b(lM),Hj=b(sa),Hk=b(fs),Hl=b(bx),Hq=b(ty),Hr=b(gR),Ht=b(ey),Hu=b(fs),Hm=b(ey),Hn=b(s2),Ho=b(sC),Hp=b(bx),Hb=b(ex),Hf=b(b3),Hg=b(b1),Hc=b(lR),Hd=b(lV),He=b(ey),G7=b(ex),G$=b(b3),Ha=b(b1),G8=b(lR),G9=b(lV),G_=b(ey),G6=[0,1],G5=[0,1],G3=[0,1],G1=[0,1],G0=[0,1],GY=[0,1],GZ=[0,b("this quantity of such a mechanism"),0],GH=b(lN),GI=b(tl),GJ=b(sq),GK=b(l3),GL=b(tS),GN=b(tm),GM=b(gH),GG=b(iO),Gy=b(iV),Gm=b(s7),Gn=b(te),GQ=b(fo),GR=b(tA),GS=b(sG),GT=b(fq),GU=b(s8),GV=b(si),GW=b(sj),GX=b(r$),Go=b(sf),Gp=b(tV),Gq=b(ts),Gr=b(th),Gs=b(sx),Gt=b(tU),Gu=b(sl),Gv=b(sk),Gw=[0,b(a0),0],Gx=b('the quantity "'),Gz=b(st),GA=b(tq),GB=b(b3),GC=b(b1),GD=b(tH),GE=[0,b(a0),0],GF=b('a bound "'),GO=b(gG),GP=b(fs),Gk=b(bG),Gl=b(fw),Gi=b(bG),Gj=b(cG),Gf=b(bG),Gg=b(gN),FT=b(bG),FU=b(gP),FV=b(gQ),FW=b(cG),FX=b(gN),FY=b(fw),F1=b(bx),F2=b(b0),F3=b(gF),F4=b(fn),F5=b(bx),F6=b(b0),F7=b(b2),F8=b(b2),F9=b(gF),F_=b(fn),F$=b(gQ),Ga=b(bx),Gb=b(b0),Gc=b(s6),Gd=b(gH),FZ=[0,b('" of such a machine'),0],F0=b(sp),FR=b(bG),FS=b(gQ),FB=b(bG),FC=b(cG),FD=b(gN),FE=b(fw),FH=b(gP),FI=b(bx),FJ=b(b0),FK=b(gF),FL=b(fn),FM=b(bx),FN=b(b0),FO=b(b2),FP=b(b2),FF=[0,b(a0),0],FG=b(sp),Fy=b(iY),Fz=b(fv),Fw=b(" is not covered by the verified checker"),Fx=b(ai),Fu=b(b3),Fv=b(b1),Fq=b(ai),Fr=b(tW),Fs=b(ai),Ft=b(ai),Fp=[1,0],Fo=b(fv),Fm=b("Reader.Malformed"),Fn=b("Reader.Not_covered"),KB=[0,b("a paving is checked by orthocert-verified")],KA=b(s_),KC=b("CERTIFIED"),KD=b("REFUTED"),KE=b(s_),KF=b("NOT COVERED: ");function
-gX(a){throw[0,mk,a]}function
-mm(b,a){return LZ(b,a)?b:a}function
+gE(a,b,c,d,e){return a.length==4?a(b,c,d,e):dg(a,[b,c,d,e])}function
+LD(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):dg(a,[b,c,d,e,f])}LS();var
+mn=[bd,b(sN),-2],mm=[bd,b(t0),-4],KK=[0,[0,[0,[0,0]]]],KL=[0,0],KM=[0,0],KN=[0,[0,0]],KO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KN]]]]]]]]]]],ix=[0,[1,0],0],rt=[0,[2,0],0],ln=[0,[1,0],0],rs=[0,[2,0],0],iv=[0,[1,0],0],lm=[0,[2,0],0],KP=[0,[0,[0,[0,0]]]],KQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KP]]]]]]]]]]],KR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KQ]]]]]]]]]]],KS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KR]]]]]]]]]]],KT=[0,[0,0]],KU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KT]]]]]]]]]]],KV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KU]]]]]]]]]]],KW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KV]]]]]]]]]]],KX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KW]]]]]]]]]]],KY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],KZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KY]]]]]]]]]]],K0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KZ]]]]]]]]]]],K1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K0]]]]]]]]]]],K2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K1]]]]]]]]]]],K3=[0,[0,0]],K4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K3]]]]]]]]]]],K5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K4]]]]]]]]]]],K6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K5]]]]]]]]]]],K7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K6]]]]]]]]]]],K8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K7]]]]]]]]]]],K9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K8]]]]]]]]]]],K_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K9]]]]]]]]]]],K$=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],La=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K$]]]]]]]]]]],Lb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,La]]]]]]]]]]],Lc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lb]]]]]]]]]]],Ld=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lc]]]]]]]]]]],Le=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ld]]]]]]]]]]],Lf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Le]]]]]]]]]]],Lg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lf]]]]]]]]]]],Lh=[0,0],Li=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lh]]]]]]]]]]],Lj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Li]]]]]]]]]]],Lk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lj]]]]]]]]]]],Ll=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lk]]]]]]]]]]],Lm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ll]]]]]]]]]]],Ln=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lm]]]]]]]]]]],Lo=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ln]]]]]]]]]]],Lp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lo]]]]]]]]]]],Lq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lp]]]]]]]]]]],Lr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lq]]]]]]]]]]],Ls=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Lt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ls]]]]]]]]]]],Lu=[0,0],Lv=[0,[0,0]],Lw=[0,0],Lx=[0,[0,[0,[0,[0,0]]]]],dX=[0,[0,[0,0]]],dZ=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],nT=[0,0],ij=[0,[0,[0,[0,0]]]],Ly=[0,[0,[0,[0,[0,0]]]]],Lz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ly]]]]]]]]]]],LA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lz]]]]]]]]]]],LB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,LA]]]]]]]]]]],LC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,LB]]]]]]]]]]];b5(11,[bd,b(sd),-12],sd);b5(10,[bd,b(s3),-11],s3);b5(9,[bd,b(tP),-10],tP);b5(8,[bd,b(sq),-9],sq);b5(7,[bd,b(tf),-8],tf);b5(6,[bd,b(so),-7],so);b5(5,[bd,b(sO),-6],sO);b5(4,[bd,b(sS),-5],sS);b5(3,mm,t0);b5(2,[bd,b(lS),-3],lS);b5(1,mn,sN);b5(0,[bd,b(ty),-1],ty);var
+uB=b("String.sub / Bytes.sub"),uD=b(ai),uC=b("String.concat"),uE=b("Array.init"),uF=b("power"),u$=[0,0],va=[0,0],vg=[0,0,0],vh=[0,0,0],vi=[0,0],vB=[0,0],vH=[0,0],vL=[0,0],vM=[0,0],vP=[0,0],vQ=[0,0],vY=[0,0],wf=[0,0],wi=[0,0],wm=[0,0],wn=[0,0],wo=[0,0],wp=[0,0],wD=[0,0],wE=[0,0],w7=[0,0],xv=[0,[0,[0,0]]],x9=[0,0],yA=[0,0],yY=[0,0],za=b(","),zs=[0,b(lZ),0],zt=b(sX),zu=b("."),zv=[0,[0,[0,0]]],zw=b(fv),zx=b(l0),zy=[0,[0,[0,[0,[0,0]]]]],zz=[0,b(lZ),0],zA=b(tY),CD=b(sa),CF=b(r9),CE=b(s6),CG=b(fq),CH=b(fo),CI=b(i6),CJ=b(tI),CK=b(sH),CL=b(i0),CM=b(s$),CN=b(sG),CO=b(tM),D5=[0,[0,[0,0,0],0]],Ek=[0,0],D6=b(gF),D7=[0,0],D8=b(lY),D9=[0,1],D_=b("mirror"),D$=[0,3],Ea=b("negative"),Eb=[0,2],Ec=b(gK),Ed=[0,5],Ee=b(l6),Ef=[0,4],Eg=b(dN),Eh=b(iQ),Ei=b(fr),Ej=b(b3),El=[0,0],Em=[0,0],En=[0,0],Eq=[0,[0,[0,0]]],Er=[0,[0,[0,0]]],ES=[0,[0,[0,0]]],E6=[0,0],Fp=b(ai),Fh=[0,0],Fj=[0,0],Fi=[0,0],Fk=[0,[0,[0,[0,0]]]],Fl=[0,[0,[0,0]]],Fm=[0,[0,[0,[0,0]]]],Fn=[0,[0,[0,0]]],Ff=[0,[0,[0,0]]],Fe=b(fr),Fd=[0,0],Fb=[0,1,0],Fc=[0,[0,[0,0]]],Fa=[0,0],E$=[0,0],E_=[0,0],E7=[0,[0,0]],E8=[0,[0,[0,0]]],E4=[0,[0,0]],E5=[0,[0,[0,0]]],E3=[0,0],EZ=[0,[0,[0,0]]],EY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KK]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],ET=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],EU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],EV=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],EW=[0,[0,[0,[0,0]]],[0,0,0]],EQ=[0,0],ER=[0,[0,0]],EP=[0,0,0],EO=[0,[0,[0,0]]],EI=[0,[0,0]],EJ=[0,[0,[0,0]]],EK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KL]]]]]]]]]]],EL=[0,[0,0]],EM=[0,[0,[0,0]]],EH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KM]]]]]]]]]]],EF=[0,[0,0]],EG=[0,[0,[0,0]]],ED=[0,[0,[0,0]]],EE=[0,[0,0]],EC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KO]]]]]]]]]]],EB=[0,0],EA=[0,0],Ex=[0,[0,0]],Ey=[0,0],Ev=[0,0],Ew=[0,1],Et=[0,[0,0]],Eu=[0,0],Es=[0,0],Eo=[0,0],Ep=[0,1],DZ=[0,[0,0,0]],D0=[0,[0,1,0]],D1=[0,[0,2,0]],D2=[0,[0,0,1]],D3=[0,[0,1,1]],D4=[0,[0,2,1]],DV=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],DT=[0,[0,0],0],DU=[0,[1,0],0],DW=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],DR=[0,[0,0]],DS=[0,0],DQ=[0,0],DP=[0,0],DO=[0,0],DN=[0,0],DM=[0,0,0],DK=[0,[0,0]],DL=[0,0],DJ=[0,0,0],DH=[0,[0,[0,0]]],DI=[0,[0,[0,0]]],DG=[0,0],DE=[0,1,0],Dx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KS]]]]]]]]]]],Dy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KX]]]]]]]]]]],Dt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K2]]]]]]]]]]],Du=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K_]]]]]]]]]]],Dv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lg]]]]]]]]]]],Dw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lr]]]]]]]]]]],Dz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lt]]]]]]]]]]],DA=b("sqrt"),Di=[0,b("\n"),0],Dj=b(r_),Dk=b(iP),Dl=b(s2),Dm=b(sL),Ds=b(gN),Dn=b(gJ),Do=b("verdict"),Dp=b(tz),Dq=b(sD),Dr=b(s1),Df=b(sV),Dg=b(tD),Dh=b(iS),Db=b(tb),Dc=b(iT),Dd=b(gJ),De=b(gN),C8=b(i2),C9=b(bG),C_=b(r$),C$=b(iY),C5=b(tx),C6=b(gK),C7=b(iY),C1=b(te),C2=b(i2),C3=b(iT),C4=b(tN),CQ=b(tE),CR=b(tH),CS=b(iX),CT=b(iV),CU=b(tT),CV=b(tt),CW=b(tw),CX=b(ti),CY=b(iX),CZ=b(tl),CB=b(iN),CC=b(gM),Cw=b(b4),Cx=b(b2),Cy=b(sF),B8=b(iV),B9=b(th),BM=b(bG),BN=b(cm),BO=b(i4),BP=b(fu),BQ=b(cH),BV=b(lL),BR=b(l1),BS=b(l3),BT=b(fp),BU=b(bG),BW=b(cm),BX=b(i4),BY=b(fu),BZ=b(l1),B0=b(l3),B1=b(fp),B2=b(bG),B3=b(cm),B4=b(b4),B5=b(b2),B6=b(ex),B7=b(fu),B_=b(tr),B$=b(tG),Ca=b(i5),Cb=b(st),Cc=b(sy),Cd=b(fp),Ce=b(bG),Cf=b(cm),Cg=b(iL),Ch=b(sJ),Ci=b(fu),Cj=b(gS),Ck=b(si),Cl=b(fp),Cm=b(bG),Cn=b(iL),Co=b(bG),Cp=b(tk),Cs=b(r8),Cq=b(sw),Cr=b(tL),Ct=b(gN),Cu=b(gJ),Cv=b(bG),Cz=b(i5),CA=b(iS),BH=b(cm),BI=b(fu),BJ=b(lL),BK=b(fp),BG=b(tV),Bu=b(gS),Bv=b(tA),Bw=b(ey),Bx=b(fs),By=b(fs),Bz=b(lO),BA=b(ey),BB=b(s4),BC=b(sE),BD=b(bw),BF=b(sc),BE=b(lO),Bk=b(sU),Bl=b(tZ),Bm=b(sA),Bn=b(sx),Bo=b(tK),Bp=b(tv),Bq=b(sM),Br=b(iM),Bs=b(iM),Bg=b(bw),Bh=b(b1),Bi=b(fw),Bj=b(bF),Bc=b(cH),Bd=b(lV),Be=b(tc),A$=b(b4),Ba=b(b2),Bb=b(ex),A4=b(b4),A5=b(b2),A6=b(ex),A7=b(lX),A8=b(ey),A9=b(lT),A_=b(tq),AM=b(sv),AS=b(iP),AR=b(l5),AN=b(lP),AO=b(gH),AT=b(gI),AV=b(gI),AW=b(to),AX=b(lP),AU=b(gH),AY=b(ss),AZ=b(tn),A0=b(gH),A1=b(tU),A2=b(l5),A3=b(gH),AP=b(fs),AQ=b(s9),AJ=b(iW),AK=b(iW),AL=b(iW),AF=b(ts),AG=b(b2),AH=b(b4),AI=b(tJ),Ao=b(sm),Ap=b(sb),Aq=b(tg),Ar=b(fq),As=b(tW),At=b(tj),Au=b(sn),Av=b(s_),Aw=b(sl),Ax=b(sI),Ay=b(sk),Az=b(tu),AA=b(fo),AB=b(sh),AC=b(tC),AD=b(sz),AE=b(tX),z1=b(iZ),z3=b(fv),z2=b(gG),z4=b(fn),z5=b(bw),z6=b(b1),z7=b(b3),z8=b(gO),z9=b(bF),z_=b(gQ),z$=b(bw),Aa=b(b1),Ab=b(fw),Ac=b(bF),Ad=b(b3),Ae=b(cH),Af=b(bF),Ag=b(fn),Ah=b(gR),Ai=b(bw),Aj=b(b1),Ak=b(s8),Al=b(gI),Am=b(gR),An=b(bF),zJ=b(iZ),zR=b(fv),zK=b(gG),zL=b(fn),zM=b(bw),zN=b(b1),zO=b(b3),zP=b(gO),zQ=b(bF),zS=b(gQ),zT=b(bw),zU=b(b1),zV=b(fw),zW=b(bF),zX=b(b3),zY=b(cH),zZ=b(bF),zG=b(b4),zH=b(b2),zE=[0,b(a0),0],zF=b(a0),zC=b(ai),zB=[0,b(a0),0],zD=b(a0),zo=b(iZ),zp=b(fv),zq=b("*"),zr=b(cn),zj=[0,[0,[0,[0,[0,0]]]]],zk=[0,[0,[0,0]]],zl=[0,[0,0]],zm=[0,0],zn=[0,[0,[0,[0,0]]]],zh=b('":'),zi=b(a0),zf=[0,b(a0),0],zg=b(a0),zd=[0,b("}"),0],ze=b("{"),zb=[0,b("]"),0],zc=b("["),y$=[0,[0,[0,0]]],y_=[0,[0,[0,0]]],y8=[0,0],y5=[0,[0,[0,0]]],y6=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],y7=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],y3=[0,[0,0]],y4=[0,[0,[0,0]]],y0=[0,0],y1=[0,[0,0]],y2=[0,0],yZ=[0,0],yW=[0,0],yX=[0,[0,0]],yT=[0,0],yU=[0,[0,0]],yV=[0,0],yO=[0,[0,0]],yP=[0,0],yQ=[0,[0,[0,0]]],yR=[0,[0,[0,0]]],yN=[0,[0,[0,0]]],yM=[0,[0,[0,0]]],yL=[0,0],yI=[0,[0,[0,0]]],yK=[0,[0,[0,0]]],yJ=[0,0],yG=[0,[0,0]],yH=[0,0],yE=[0,[0,0]],yF=[0,0],yD=[0,[0,[0,0]]],yB=[0,[0,0]],yC=[0,0],yy=[0,0],yz=[0,[0,0]],ys=[0,[0,0]],yt=[0,[0,[0,[0,[0,0]]]]],yu=[0,[0,[0,[0,0]]]],yv=[0,[0,[0,0]]],yw=[0,[0,0]],yx=[0,0],yp=[0,0],yq=[0,[0,0]],yr=[0,0],yo=[0,0],yk=[0,0],yl=[0,[0,[0,[0,[0,[0,0]]]]]],ym=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lu]]]]]]]]]]],yi=[0,0,0],yj=[0,0,0],yf=[0,0,0],yg=[0,0],yb=[0,0,0],yc=[0,0,0],yd=[0,0,0],x_=[0,[0,0]],x$=[0,[0,[0,0]]],ya=[0,0],x5=[0,0],x6=[0,[0,0]],x7=[0,0],x8=[0,[0,0]],x2=[0,0],x3=[0,[0,0]],x4=[0,0],x0=[0,0,0],x1=[0,0,[0,1,0]],xW=[0,0,0],xX=[0,0,0],xY=[0,0,0],xZ=[0,0,0],xT=[0,[0,[0,[0,[0,[0,0]]]]]],xU=[0,[0,[0,0]]],xV=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],xM=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],xN=[0,[0,[0,0]]],xO=[0,[0,[0,[0,[0,[0,0]]]]]],xP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lv]]]]]]]]]]],xQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lw]]]]]]]]]]],xR=[0,[0,[0,0]]],xS=[0,[0,[0,[0,[0,[0,0]]]]]],xI=[0,0,0],xJ=[0,0,0],xE=[0,0,0],xF=[0,0,0],xG=[0,0,0],xH=[0,0,0],xD=[0,0],xC=[0,0],xB=[0,0],xz=[0,0],xA=[0,0],xy=[0,0],xw=[0,0],xx=[0,0],xo=[0,0],xp=[0,0],xq=[0,0],xr=[0,[0,[0,0]]],xn=[0,0],xh=[0,0],xi=[0,0],xj=[0,[0,0]],xf=[0,[0,0]],xg=[0,[0,[0,0]]],xd=[0,[0,[0,0]]],xe=[0,[0,0]],xb=[0,[0,0]],xc=[0,[0,[0,0]]],xa=[0,0],w_=[0,0],w$=[0,0],w8=[0,0,0],w5=[0,[0,0]],w6=[0,0],wX=[0,[0,0]],wY=[0,0],wZ=[0,[0,0]],w0=[0,0],w1=[0,[0,0]],w2=[0,0],w3=[0,[0,0]],w4=[0,0],wV=[0,[0,0]],wW=[0,0],wT=[0,[0,0]],wU=[0,0],wP=[0,[0,0]],wQ=[0,0],wR=[0,0],wS=[0,[0,0]],wG=[0,[0,0]],wH=[0,0],wI=[0,[0,0]],wJ=[0,0],wK=[0,0],wL=[0,[0,0]],wM=[0,[0,0]],wN=[0,[0,0]],wO=[0,0],wC=[0,0],wB=[0,0],wy=[0,0],wz=[0,[0,0]],wx=[0,[0,[0,0]]],ww=[0,[0,[0,[0,[0,[0,0]]]]]],wu=[0,[0,0]],wv=[0,0],wt=[0,[0,0]],ws=[0,0],wq=[0,0],wr=[0,[0,[0,0]]],wk=[0,[0,0]],wl=[0,[0,[0,0]]],wj=[0,[0,[0,0]]],wg=[0,[0,[0,0]]],we=[0,[0,[0,0]]],wc=[0,[0,[0,[0,[0,[0,0]]]]]],wd=[0,[0,[0,[0,[0,[0,0]]]]]],v9=[0,[0,0]],v_=[0,0],v$=[0,[0,0]],wa=[0,[0,[0,0]]],wb=[0,[0,[0,0]]],v2=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],v3=[0,[0,[0,[0,[0,[0,0]]]]]],v4=[0,[0,[0,[0,[0,[0,0]]]]]],v5=[0,[0,[0,0]]],v6=[0,[0,[0,[0,[0,[0,0]]]]]],v7=[0,[0,[0,0]]],v8=[0,[0,[0,0]]],v0=[0,[0,0]],v1=[0,0],vV=[0,0,0],vW=[0,[0,0,0],0],vX=[0,0,0],vT=[0,0,0],vU=[0,[0,0,0],0],vS=[0,0,0],vR=[0,[0,[0,0]]],vO=[0,0,0],vN=[0,0],vJ=[0,0],vK=[0,[0,0]],vC=[0,0],vD=[0,0],vE=[0,0],vF=[0,0],vz=[0,0],vA=[0,0],vx=[0,0,0],vu=[0,[0,[0,0]]],vv=[0,[0,[0,0]]],vw=[0,[0,[0,0]]],vt=[0,[0,[0,[0,0]]]],vp=[0,[0,[0,0]]],vq=[0,[0,[0,0]]],vr=[0,[0,[0,0]]],vs=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],vn=[0,[0,0]],vo=[0,0],vl=[0,[0,0]],vm=[0,0],vj=[0,[0,0]],vk=[0,0],u8=[0,0],u9=[0,[0,0]],u6=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],u7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lx]]]]]]]]]]],u4=[0,0,0],u2=[0,[0,[0,[0,[0,0]]]]],uS=[0,0],uT=[0,[0,0]],uU=[0,[0,[0,0]]],uV=[0,[0,[0,[0,0]]]],uW=[0,[0,[0,[0,[0,0]]]]],uX=[0,[0,[0,[0,[0,[0,0]]]]]],uY=[0,[0,[0,[0,[0,[0,[0,0]]]]]]],uZ=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],u0=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],u1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],uQ=b(tR),uP=b(ai),uO=[0,[0,0]],uM=[0,0],uJ=[0,0],uL=[1,0],uK=[0,0],uI=[0,0],uG=[1,0],uH=[1,0],vI=[0,[0,[0,[0,[0,[0,0]]]]]],wA=[10,0,0,0,0],E9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,LC]]]]]]]]]]],IF=b(b4),IG=b(b2),IH=b(sF),Ix=b(gQ),Iy=[0,b("a base axis of such a platform"),0],Iz=b(bw),IA=b(b1),Ik=b(tv),Il=b(sU),Im=b(tK),In=b(iM),Io=b(sM),Ip=b(iM),Iq=b(tZ),Ir=b(sA),Is=b(sx),H_=b(th),H$=b(iV),HM=[0,b("such a machine with bodies"),0],Hz=b(iS),HA=b(bG),HB=b(tk),HC=b(tL),HF=b(sw),HG=b(r8),HH=b(bG),HI=b(bG),HK=b(iL),HJ=[0,b("a claim that no cube of such a machine fits"),0],HL=b(tV),HN=b(fp),HO=b(fu),HP=b(cH),HQ=b(lV),HR=b(tc),HS=b(i4),HT=b(sy),HU=b(si),HV=b(lL),HY=b(ex),HZ=b(tq),H2=b(cm),H3=b(cm),H4=b(sJ),H5=b(cm),H6=[0,b("the closed design with other bounds on psi than one from below and one from above"),0],H7=b(iL),H8=b(gS),H9=b(ex),Ia=b(tG),Ib=b(tr),Ic=[0,b(" operations, with its definitions written out,"),0],Id=b("a mechanism of more than "),Ie=b(cm),If=b(b4),Ig=b(b2),Ih=b(i5),Ii=b(st),HW=[0,b(a0),0],HX=b('the mechanism "'),Ij=b(l1),It=b(i4),Iu=b(cH),Iv=b(lV),Iw=b(l3),IB=b(cm),IE=b(cH),IC=[0,b("a platform that turns on struts and other drives"),0],ID=b(cm),H0=[0,b(a0),0],H1=b('the workspace "'),II=b(bG),IJ=b(bG),IL=b(gN),IM=b(gJ),IN=b(i5),IK=[0,b("an atlas of such a machine"),0],HD=[0,b(a0),0],HE=b('a claim of the kind "'),I2=b(i6),I3=b(dN),I4=b(iQ),I5=b(fr),I6=b(i0),I7=b(lY),I8=b(gF),I9=b(i6),I_=b(iQ),I$=b(i0),Ja=b(lY),Jb=[0,b('this evidence "fan"'),0],IS=b(dN),Jm=b(gM),Jn=[0,1,1],IT=b(s$),Jd=b(fo),Je=b(sG),Jf=b(fq),Jg=b(sH),Jh=b(s6),Ji=b(b3),Jj=b(gM),Jk=b(iN),Jl=b(b3),IU=b(i6),IV=b(dN),IW=b(iQ),IX=b(fr),IY=b(tM),IZ=b(i0),Jc=[0,b('evidence "fan" about "divided" and other rows'),0],I0=[0,b(a0),0],I1=b('the evidence "'),Jo=b(fo),Jp=b(fq),Jq=b(dN),Jr=b(fr),Js=b(tI),Ju=b(fo),Jv=b(fq),Jw=b(dN),Jx=b(fr),Jy=b(gK),Jz=b(gF),JA=b(gK),JB=b(gF),Jt=[0,b("this evidence at control points"),0],KD=b('"orthocert-paving/'),Ku=b(dN),Kv=b(dN),Kh=b(s1),Ki=b(sD),Kj=b(tz),KB=[0,3,3],Kk=b(sL),Ks=[0,b("this set of orientations with such drives"),0],Kt=[0,b(se),0],Kw=[0,b('this evidence "tolerances" of a platform that turns'),0],Kx=[0,b("a step of a platform that turns that is not at control points"),0],Ky=[0,b("this quantity in a claim that is refuted"),0],Kz=[0,b("a step in a proof that no cube fits"),0],KA=[0,b('the failure "same" of such a mechanism'),0],Kl=[0,b(se),0],Kq=[0,b("a stiffness for each joint in such a claim"),0],Kr=[0,b(tm),0],Kp=[0,b(tm),0],Km=b(s2),Kn=b(r_),Ko=b(iP),Kd=b(l6),Ke=b(gF),Kf=b(b3),J7=b(iS),J8=b(sV),J9=b(tD),J_=[0,b(a0),0],J$=b('a proof of the kind "'),J3=b(gJ),J4=b(gN),J5=b(iT),J6=b(tb),JZ=b(bG),J0=b(i2),J1=b(r$),J2=b(iY),JW=b(tx),JX=b(gK),JY=b(iY),JS=b(te),JT=b(i2),JU=b(iT),JV=b(tN),JE=b(tH),JF=b(iX),JG=b(tE),JH=b(iV),JI=b(tl),JJ=b(tT),JM=b(tt),JN=b(iN),JO=b(gM),JP=b(tw),JQ=b(ti),JR=b(iX),JK=[0,b(a0),0],JL=b('the failure "'),JC=b(l6),JD=b(tR),IQ=b(gM),IR=b(iN),IO=b(r9),IP=b(sa),Hw=b(gS),Hm=b(lO),Hn=b(sc),Ho=b(fs),Hp=b(bw),Hu=b(tA),Hv=b(gS),Hx=b(ey),Hy=b(fs),Hq=b(ey),Hr=b(s4),Hs=b(sE),Ht=b(bw),Hf=b(ex),Hj=b(b4),Hk=b(b2),Hg=b(lT),Hh=b(lX),Hi=b(ey),G$=b(ex),Hd=b(b4),He=b(b2),Ha=b(lT),Hb=b(lX),Hc=b(ey),G_=[0,1],G9=[0,1],G7=[0,1],G5=[0,1],G4=[0,1],G2=[0,1],G3=[0,b("this quantity of such a mechanism"),0],GL=b(lP),GM=b(tn),GN=b(ss),GO=b(l5),GP=b(tU),GR=b(to),GQ=b(gI),GK=b(iP),GC=b(iW),Gq=b(s9),Gr=b(tg),GU=b(fo),GV=b(tC),GW=b(sI),GX=b(fq),GY=b(s_),GZ=b(sk),G0=b(sl),G1=b(sb),Gs=b(sh),Gt=b(tX),Gu=b(tu),Gv=b(tj),Gw=b(sz),Gx=b(tW),Gy=b(sn),Gz=b(sm),GA=[0,b(a0),0],GB=b('the quantity "'),GD=b(sv),GE=b(ts),GF=b(b4),GG=b(b2),GH=b(tJ),GI=[0,b(a0),0],GJ=b('a bound "'),GS=b(gH),GT=b(fs),Go=b(bF),Gp=b(fw),Gm=b(bF),Gn=b(cH),Gj=b(bF),Gk=b(gO),FX=b(bF),FY=b(gQ),FZ=b(gR),F0=b(cH),F1=b(gO),F2=b(fw),F5=b(bw),F6=b(b1),F7=b(gG),F8=b(fn),F9=b(bw),F_=b(b1),F$=b(b3),Ga=b(b3),Gb=b(gG),Gc=b(fn),Gd=b(gR),Ge=b(bw),Gf=b(b1),Gg=b(s8),Gh=b(gI),F3=[0,b('" of such a machine'),0],F4=b(sr),FV=b(bF),FW=b(gR),FF=b(bF),FG=b(cH),FH=b(gO),FI=b(fw),FL=b(gQ),FM=b(bw),FN=b(b1),FO=b(gG),FP=b(fn),FQ=b(bw),FR=b(b1),FS=b(b3),FT=b(b3),FJ=[0,b(a0),0],FK=b(sr),FC=b(iZ),FD=b(fv),FA=b(" is not covered by the verified checker"),FB=b(ai),Fy=b(b4),Fz=b(b2),Fu=b(ai),Fv=b(tY),Fw=b(ai),Fx=b(ai),Ft=[1,0],Fs=b(fv),Fq=b("Reader.Malformed"),Fr=b("Reader.Not_covered"),KF=[0,b("a paving is checked by orthocert-verified")],KE=b(ta),KG=b("CERTIFIED"),KH=b("REFUTED"),KI=b(ta),KJ=b("NOT COVERED: ");function
+gY(a){throw[0,mm,a]}function
+mo(b,a){return L3(b,a)?b:a}function
 bo(d,c){var
-a=aI(d),e=aI(c),b=cK(a+e|0);fy(d,0,b,0,a);fy(c,0,b,a,e);return jb(b)}function
-mn(a,b){if(a){var
-c=a[1];return[0,c,mn(a[2],b)]}return b}L3(0);uh(1);uh(2);function
-mo(b){function
+a=aI(d),e=aI(c),b=cL(a+e|0);fy(d,0,b,0,a);fy(c,0,b,a,e);return jc(b)}function
+mp(a,b){if(a){var
+c=a[1];return[0,c,mp(a[2],b)]}return b}L7(0);uj(1);uj(2);function
+mq(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{L2(d)}catch(a){a=uq(a);if(a[1]!==ml)throw a;var
+c=a[2],d=a[1];try{L6(d)}catch(a){a=us(a);if(a[1]!==mn)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(L4(0))}L$(b(sd),mo);function
-cM(c){var
+a=c;continue}return 0}}return a(L8(0))}Md(b(sf),mq);function
+cN(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-mp(d,c){var
+mr(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-je(a){return mp(a,0)}function
+jf(a){return mr(a,0)}function
 Z(b,a){if(a){var
 c=a[2],d=h(b,a[1]);return[0,d,Z(b,c)]}return 0}function
-mq(e,d,c){var
+ms(e,d,c){var
 b=d,a=c;for(;;){if(a){var
 f=a[2],b=au(e,b,a[1]),a=f;continue}return b}}function
 eE(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=h(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
-aT(d,c){var
+aU(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=h(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
-mr(d,c){var
+mt(d,c){var
 a=c;for(;;){if(a){var
-b=a[1],e=a[2],f=b[2];if(0===LK(b[1],d))return[0,f];var
+b=a[1],e=a[2],f=b[2];if(0===LO(b[1],d))return[0,f];var
 a=e;continue}return 0}}function
-b5(b,c){var
-a=cK(b);LM(a,0,b,c);return jb(a)}function
+b6(b,c){var
+a=cL(b);LQ(a,0,b,c);return jc(a)}function
 eF(g,b,a){var
-d=fz(g),f=0;if(0<=b&&0<=a&&!((i$(d)-a|0)<b)){var
-c=cK(a);gS(d,b,c,0,a);var
+d=fz(g),f=0;if(0<=b&&0<=a&&!((ja(d)-a|0)<b)){var
+c=cL(a);gT(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=gX(uz);return jb(e)}function
-ms(k,g){if(g){var
+e=gY(uB);return jc(e)}function
+mu(k,g){if(g){var
 h=aI(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(aI(i)+h|0)+c|0,m=b[2],n=c<=j?j:gX(uA),c=n,b=m;continue}var
+j=(aI(i)+h|0)+c|0,m=b[2],n=c<=j?j:gY(uC),c=n,b=m;continue}var
 l=aI(i)+c|0}else
 var
 l=c;var
-f=cK(l),e=p,d=g;for(;;){if(d){var
+f=cL(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
 o=d[2];fy(a,0,f,e,aI(a));fy(k,0,f,e+aI(a)|0,h);var
-e=(e+aI(a)|0)+h|0,d=o;continue}fy(a,0,f,e,aI(a))}return jb(f)}}}return uB}function
-jf(b,c){if(0===b)return[0];if(0<=b){var
-d=L1(b,h(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+e=(e+aI(a)|0)+h|0,d=o;continue}fy(a,0,f,e,aI(a))}return jc(f)}}}return uD}function
+jg(b,c){if(0===b)return[0];if(0<=b){var
+d=L5(b,h(c,0)),e=b-1|0,f=1;if(!(e<1)){var
 a=f;for(;;){d[1+a]=h(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return gX(uC)}function
-jg(c){var
+a=g;continue}break}}return d}return gY(uE)}function
+jh(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
-e=aS(0),a=aS(1);function
+e=aT(0),a=aT(1);function
 s(b){return G(b,a)}function
-mt(b,a){return G(aS(b),a)}function
-c(b,a){return E(aS(b),a)}function
-a2(b,a){return[0,mi(b,a),uu(b,a)]}function
-jh(b,a){return D(b,a)?b:a}function
-by(b,a){return D(b,a)?a:b}function
+mv(b,a){return G(aT(b),a)}function
+c(b,a){return E(aT(b),a)}function
+a2(b,a){return[0,mk(b,a),uw(b,a)]}function
+ji(b,a){return D(b,a)?b:a}function
+bx(b,a){return D(b,a)?a:b}function
 fE(a){return fE}function
-L(a){return a?0:1}function
-x(b,a){var
+J(a){return a?0:1}function
+y(b,a){var
 c=a?[0,h(b,a[1])]:a;return c}function
-ao(a){return a[1]}function
-aH(a){return a[2]}function
+ap(a){return a[1]}function
+aE(a){return a[2]}function
 f(a){var
 b=a?[0,f(a[2])]:a;return b}function
 g(a,b){if(a){var
 c=g(a[2],b);return[0,a[1],c]}return b}function
-mu(a){return typeof
-a==="number"?0:[0,mu(a[1])]}function
-mv(d,c){var
+mw(a){return typeof
+a==="number"?0:[0,mw(a[1])]}function
+mx(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -812,9 +812,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-gY(a){return mv(a,0)}function
-mw(a){if(typeof
-a==="number")return uE;else
+gZ(a){return mx(a,0)}function
+my(a){if(typeof
+a==="number")return uG;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -824,104 +824,104 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,mw(a[1])]}}function
-b7(a){if(typeof
-a==="number")return uF;else
+8:return[9,a[1]];default:return[0,my(a[1])]}}function
+b8(a){if(typeof
+a==="number")return uH;else
 switch(a[0]){case
-0:return[1,b6(a[1])];case
-1:return[3,b6(a[1])];case
-2:return[5,b6(a[1])];case
-3:return[7,b6(a[1])];case
-4:return[9,b6(a[1])];case
-5:return[1,b7(a[1])];case
-6:return[3,b7(a[1])];case
-7:return[5,b7(a[1])];case
-8:return[7,b7(a[1])];default:return[9,b7(a[1])]}}function
-b6(a){if(typeof
+0:return[1,b7(a[1])];case
+1:return[3,b7(a[1])];case
+2:return[5,b7(a[1])];case
+3:return[7,b7(a[1])];case
+4:return[9,b7(a[1])];case
+5:return[1,b8(a[1])];case
+6:return[3,b8(a[1])];case
+7:return[5,b8(a[1])];case
+8:return[7,b8(a[1])];default:return[9,b8(a[1])]}}function
+b7(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,b6(a[1])];case
-1:return[2,b6(a[1])];case
-2:return[4,b6(a[1])];case
-3:return[6,b6(a[1])];case
-4:return[8,b6(a[1])];case
-5:return[0,b7(a[1])];case
-6:return[2,b7(a[1])];case
-7:return[4,b7(a[1])];case
-8:return[6,b7(a[1])];default:return[8,b7(a[1])]}}function
+0:return[0,b7(a[1])];case
+1:return[2,b7(a[1])];case
+2:return[4,b7(a[1])];case
+3:return[6,b7(a[1])];case
+4:return[8,b7(a[1])];case
+5:return[0,b8(a[1])];case
+6:return[2,b8(a[1])];case
+7:return[4,b8(a[1])];case
+8:return[6,b8(a[1])];default:return[8,b8(a[1])]}}function
 aY(a){return a?a[1]:a}function
 P(b,a){return b?[0,P(b[1],a)]:a}function
-gZ(a,b){return a?P(b,gZ(a[1],b)):a}function
-dO(d,c){var
+g0(a,b){return a?P(b,g0(a[1],b)):a}function
+dP(d,c){var
 a=d,b=c;for(;;){if(a){if(b){var
 a=a[1],b=b[1];continue}return a}return a}}function
-cN(b,a){return b?a:a?0:1}function
+cp(b,a){return b?a:a?0:1}function
 m(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
 ae(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-aE(b,a){return ae([0,b],a)}function
+aF(b,a){return ae([0,b],a)}function
 aA(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return 2}var
 e=a?1:a;return e}}function
-mx(c){var
+mz(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-g0(c,b,a){return c?h(b,g0(c[1],b,a)):a}function
-my(a){if(a)var
-b=a[1],d=b?[0,my(b[1])]:b,c=d;else
+g1(c,b,a){return c?h(b,g1(c[1],b,a)):a}function
+mA(a){if(a)var
+b=a[1],d=b?[0,mA(b[1])]:b,c=d;else
 var
 c=a;return c}function
-g1(d,c){var
+g2(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-mz(b){if(D(b,a))return a;var
-d=a2(b,aS(2)),f=d[1];return H(d[2],e)?s(c(2,mz(f))):s(c(2,c(2,f)))}function
-mA(c,b){return by(a,aX(c,b))}function
-g2(b,j,i){var
+mB(b){if(D(b,a))return a;var
+d=a2(b,aT(2)),f=d[1];return H(d[2],e)?s(c(2,mB(f))):s(c(2,c(2,f)))}function
+mC(c,b){return bx(a,aX(c,b))}function
+g3(b,j,i){var
 c=j,f=i;for(;;){if(D(f,a))return h(b,c);var
-g=a2(f,aS(2)),d=g[1];if(H(g[2],e)){var
-c=g2(b,c,d),f=d;continue}return h(b,g2(b,g2(b,c,d),d))}}function
-g3(b){function
-c(a){return E(b,a)}return function(b){return g2(c,a,b)}}function
-g4(b){if(D(b,a))return uH;var
-c=a2(b,aS(2)),d=c[1];return H(c[2],e)?[0,g4(d)]:[0,g4(d)]}function
-g5(b){if(D(b,a))return a;var
-c=a2(b,aS(2)),d=c[1];return H(c[2],e)?s(g5(d)):s(g5(d))}function
-mB(c,b){var
-a=mh(c,b);return 0===a?0:0<=a?2:1}function
-g6(j,i){var
-c=j,b=i;for(;;){if(D(c,a))return D(b,a)?1:H(a2(b,aS(2))[2],e)?0:0;var
-g=a2(c,aS(2)),h=g[1];if(H(g[2],e)){if(D(b,a))return 0;var
-d=a2(b,aS(2)),k=d[1];if(H(d[2],e)){var
+g=a2(f,aT(2)),d=g[1];if(H(g[2],e)){var
+c=g3(b,c,d),f=d;continue}return h(b,g3(b,g3(b,c,d),d))}}function
+g4(b){function
+c(a){return E(b,a)}return function(b){return g3(c,a,b)}}function
+g5(b){if(D(b,a))return uJ;var
+c=a2(b,aT(2)),d=c[1];return H(c[2],e)?[0,g5(d)]:[0,g5(d)]}function
+g6(b){if(D(b,a))return a;var
+c=a2(b,aT(2)),d=c[1];return H(c[2],e)?s(g6(d)):s(g6(d))}function
+mD(c,b){var
+a=mj(c,b);return 0===a?0:0<=a?2:1}function
+g7(j,i){var
+c=j,b=i;for(;;){if(D(c,a))return D(b,a)?1:H(a2(b,aT(2))[2],e)?0:0;var
+g=a2(c,aT(2)),h=g[1];if(H(g[2],e)){if(D(b,a))return 0;var
+d=a2(b,aT(2)),k=d[1];if(H(d[2],e)){var
 c=h,b=k;continue}return 0}if(D(b,a))return 0;var
-f=a2(b,aS(2)),l=f[1];if(H(f[2],e))return 0;var
+f=a2(b,aT(2)),l=f[1];if(H(f[2],e))return 0;var
 c=h,b=l;continue}}function
-g7(b,a){return 2<=mB(b,a)?0:1}function
+g8(b,a){return 2<=mD(b,a)?0:1}function
 eG(i,d,b){if(i){var
 f=i[1];if(D(d,a))return[0,a,[0,a,b]];var
-w=a2(d,aS(2)),g=w[1];if(H(w[2],e)){if(D(b,a))return[0,a,[0,d,a]];var
-m=a2(b,aS(2)),A=m[1];if(H(m[2],e)){var
+w=a2(d,aT(2)),g=w[1];if(H(w[2],e)){if(D(b,a))return[0,a,[0,d,a]];var
+m=a2(b,aT(2)),A=m[1];if(H(m[2],e)){var
 j=eG(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
 k=eG(f,g,b),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(D(b,a))return[0,a,[0,d,a]];var
-v=a2(b,aS(2)),h=v[1];if(H(v[2],e)){var
-n=eG(f,d,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(mB(g,h)){case
+v=a2(b,aT(2)),h=v[1];if(H(v[2],e)){var
+n=eG(f,d,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(mD(g,h)){case
 0:return[0,d,[0,a,a]];case
 1:var
-p=eG(f,mA(h,g),d),q=p[2],r=q[2],C=[0,r,G(r,c(2,q[1]))];return[0,p[1],C];default:var
-s=eG(f,mA(g,h),b),t=s[2],u=t[2],E=[0,G(u,c(2,t[1])),u];return[0,s[1],E]}}return[0,a,[0,d,b]]}function
-g8(b,a){var
-c=g4(a);return eG(P(g4(b),c),b,a)}function
-mC(c,i,h){var
+p=eG(f,mC(h,g),d),q=p[2],r=q[2],C=[0,r,G(r,c(2,q[1]))];return[0,p[1],C];default:var
+s=eG(f,mC(g,h),b),t=s[2],u=t[2],E=[0,G(u,c(2,t[1])),u];return[0,s[1],E]}}return[0,a,[0,d,b]]}function
+g9(b,a){var
+c=g5(a);return eG(P(g5(b),c),b,a)}function
+mE(c,i,h){var
 d=i,b=h;for(;;){if(D(d,a))return b;var
-f=a2(d,aS(2)),g=f[1];if(H(f[2],e)){var
-d=g,b=au(c,b,b);continue}return au(c,b,mC(c,g,au(c,b,b)))}}function
-fF(a){return mC(P,a,uI)}function
-mD(b){return b?s(mD(b[1])):a}function
+f=a2(d,aT(2)),g=f[1];if(H(f[2],e)){var
+d=g,b=au(c,b,b);continue}return au(c,b,mE(c,g,au(c,b,b)))}}function
+fF(a){return mE(P,a,uK)}function
+mF(b){return b?s(mF(b[1])):a}function
 cO(f,e){var
 b=f,d=e;for(;;)if(typeof
 b==="number")return d;else
@@ -945,27 +945,27 @@ t=E(c(2,s(c(2,c(2,a)))),d),u=G(s(c(2,s(c(2,a)))),t),b=b[1],d=u;continue;case
 8:var
 v=E(c(2,s(c(2,c(2,a)))),d),w=G(c(2,c(2,c(2,a))),v),b=b[1],d=w;continue;default:var
 x=E(c(2,s(c(2,c(2,a)))),d),y=G(s(c(2,c(2,c(2,a)))),x),b=b[1],d=y;continue}}function
-ji(b){if(D(b,a))return uJ;var
-c=a2(b,aS(2)),d=c[1];return H(c[2],e)?b6(ji(d)):b7(ji(d))}function
-g9(a){return gY(ji(a))}function
-mE(c,b){var
-a=mh(c,b);return 0===a?0:0<=a?2:1}function
-mF(b,a){return 0<a1(b)?0<a1(a)?g6(b,a):0:0<a1(a)?0:1}function
-mG(b,a){return 2<=mE(b,a)?0:1}function
-fG(b,a){return 1===mE(b,a)?1:0}var
-mH=G,uL=W;function
-cp(k,f){if(0<=a1(f)){var
-g=jd(f);if(0<=g){var
+jj(b){if(D(b,a))return uL;var
+c=a2(b,aT(2)),d=c[1];return H(c[2],e)?b7(jj(d)):b8(jj(d))}function
+g_(a){return gZ(jj(a))}function
+mG(c,b){var
+a=mj(c,b);return 0===a?0:0<=a?2:1}function
+mH(b,a){return 0<a1(b)?0<a1(a)?g7(b,a):0:0<a1(a)?0:1}function
+mI(b,a){return 2<=mG(b,a)?0:1}function
+fG(b,a){return 1===mG(b,a)?1:0}var
+mJ=G,uN=W;function
+cq(k,f){if(0<=a1(f)){var
+g=je(f);if(0<=g){var
 d=a,c=k,b=g;for(;;){if(0===b)return d;var
-h=b>>>1|0,i=E(c,c),j=1===(b&1)?E(d,c):d,d=j,c=i,b=h;continue}}return gX(uD)}return e}function
-jj(c,b){var
-a=mh(c,b);return 0===a?0:0<=a?2:1}function
-jk(c){var
+h=b>>>1|0,i=E(c,c),j=1===(b&1)?E(d,c):d,d=j,c=i,b=h;continue}}return gY(uF)}return e}function
+jk(c,b){var
+a=mj(c,b);return 0===a?0:0<=a?2:1}function
+jl(c){var
 b=a1(c);return 0===b?e:0<b?a:W(a)}function
-jl(a){return 0<=a1(a)?a:e}function
+jm(a){return 0<=a1(a)?a:e}function
 eH(b){var
 c=a1(b);return 0===c?a:0<c?b:a}function
-mI(m){var
+mK(m){var
 b=m;for(;;)if(typeof
 b==="number")return e;else
 switch(b[0]){case
@@ -988,17 +988,17 @@ j=s(c(2,s(c(2,a))));return cO(b[1],j);case
 k=c(2,c(2,c(2,a)));return cO(b[1],k);default:var
 l=s(c(2,c(2,c(2,a))));return cO(b[1],l)}}function
 cP(b,a){var
-c=a1(a);return 0===c?e:1===c?mi(b,a):mt(-1,mi(mt(-1,b),a))}function
-mJ(b){var
+c=a1(a);return 0===c?e:1===c?mk(b,a):mv(-1,mk(mv(-1,b),a))}function
+mL(b){var
 f=a1(b);if(0===f)return e;if(0<f){if(D(b,a))return e;var
-c=a2(b,aS(2)),d=c[1];return H(c[2],e)?g5(d):g5(d)}return e}function
-g_(a){return 0<a1(a)?Mj(a):e}function
+c=a2(b,aT(2)),d=c[1];return H(c[2],e)?g6(d):g6(d)}return e}function
+g$(a){return 0<a1(a)?Mn(a):e}function
 fH(b,c){var
-a=jd(c);return 0<=a?uv(b,a):uw(b,-a|0)}function
-dP(b,c){var
-a=jd(c);return 0<=a?uw(b,a):uv(b,-a|0)}function
-bz(b,a){return a?a[1]:b}function
-bp(a){var
+a=je(c);return 0<=a?ux(b,a):uy(b,-a|0)}function
+dQ(b,c){var
+a=je(c);return 0<=a?uy(b,a):ux(b,-a|0)}function
+bH(b,a){return a?a[1]:b}function
+by(a){var
 b=a?a[2]:a;return b}function
 q(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
@@ -1012,7 +1012,7 @@ a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
 cQ(a){if(a){var
 b=cQ(a[2]);return g(a[1],b)}return a}function
-jm(g,f,e){var
+jn(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
 c=au(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
@@ -1023,9 +1023,9 @@ d(b,a){if(a)var
 e=d(b,a[2]),c=[0,h(b,a[1]),e];else
 var
 c=a;return c}function
-y(b,a){if(a){var
-c=y(b,a[2]);return g(h(b,a[1]),c)}return a}function
-bA(e,d,c){var
+x(b,a){if(a){var
+c=x(b,a[2]);return g(h(b,a[1]),c)}return a}function
+bz(e,d,c){var
 a=d,b=c;for(;;){if(a){var
 f=au(e,b,a[1]),a=a[2],b=f;continue}return b}}function
 an(c,b,a){if(a){var
@@ -1041,11 +1041,11 @@ k(d,c){var
 a=c;for(;;){if(a){var
 b=h(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-aP(b,e){var
+aN(b,e){var
 a=e;for(;;){if(a){var
-c=a[2],d=a[1];if(h(b,d))return[0,d,aP(b,c)];var
+c=a[2],d=a[1];if(h(b,d))return[0,d,aN(b,c)];var
 a=c;continue}return a}}function
-mK(d,c){var
+mM(d,c){var
 a=c;for(;;){if(a){var
 b=a[1];if(h(d,b))return[0,b];var
 a=a[2];continue}return a}}function
@@ -1055,8 +1055,8 @@ var
 c=a;else
 var
 c=b;return c}function
-ap(b,a){if(b)if(a)var
-d=ap(b[1],a[2]),c=[0,a[1],d];else
+ao(b,a){if(b)if(a)var
+d=ao(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
@@ -1064,7 +1064,7 @@ c=b;return c}function
 aw(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
-mL(d,h){var
+mN(d,h){var
 b=h;a:for(;;){if(b){var
 c=b[2],e=b[1],a=c;for(;;){if(a){if(!au(d,a[1],e)){var
 a=a[2];continue}var
@@ -1072,116 +1072,116 @@ f=1}else
 var
 f=a;if(f){var
 b=c;continue a}var
-g=[0,e,mL(d,c)];break}}else
+g=[0,e,mN(d,c)];break}}else
 var
 g=b;return g}}function
 ax(b,a){var
 c=a?[0,b,ax([0,b],a[1])]:a;return c}function
 X(b,a){var
 c=a?[0,b,X(b,a[1])]:a;return c}function
-mM(a){return an(P,0,a)}function
-mN(b){if(b){var
-d=mN(b[2]),f=E(c(2,a),d),g=b[1]?a:e;return G(g,f)}return e}function
-mO(j){function
+mO(a){return an(P,0,a)}function
+mP(b){if(b){var
+d=mP(b[2]),f=E(c(2,a),d),g=b[1]?a:e;return G(g,f)}return e}function
+mQ(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=mN([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a1(b)?fF(b):0}function
-mP(c,b){var
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=mP([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a1(b)?fF(b):0}function
+mR(c,b){var
 a=c-b|0,d=0<=a?0===a?0:2:1;return 2<=d?0:1}function
-mQ(b){return[0,b,a]}function
-eJ(b,a){return jj(E(b[1],a[2]),E(a[1],b[2]))?0:1}function
-bq(b,a){return D(E(b[1],a[2]),E(a[1],b[2]))}function
-dQ(b,a){return[0,G(E(b[1],a[2]),E(a[1],b[2])),E(b[2],a[2])]}function
+mS(b){return[0,b,a]}function
+eJ(b,a){return jk(E(b[1],a[2]),E(a[1],b[2]))?0:1}function
+bp(b,a){return D(E(b[1],a[2]),E(a[1],b[2]))}function
+dR(b,a){return[0,G(E(b[1],a[2]),E(a[1],b[2])),E(b[2],a[2])]}function
 bb(b,a){return[0,E(b[1],a[1]),E(b[2],a[2])]}function
-g$(a){return[0,W(a[1]),a[2]]}function
-dR(b,a){return dQ(b,g$(a))}function
-ha(f,c){var
+ha(a){return[0,W(a[1]),a[2]]}function
+dS(b,a){return dR(b,ha(a))}function
+hb(f,c){var
 b=c[1],d=a1(b),g=0===d?[0,e,a]:0<d?[0,c[2],b]:[0,W(c[2]),W(b)];return bb(f,g)}function
-dS(q){var
+dT(q){var
 a=q[2],b=q[1],o=a1(b);if(0===o)var
-c=[0,cL(a),[0,e,jk(a)]];else
+c=[0,cM(a),[0,e,jl(a)]];else
 if(0<o){var
 n=a1(a);if(0===n)var
-c=[0,cL(b),[0,jk(b),e]];else
+c=[0,cM(b),[0,jl(b),e]];else
 if(0<n)var
-l=g8(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
+l=g9(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
-j=g8(b,W(a)),k=j[2],c=[0,j[1],[0,k[1],W(k[2])]]}else{var
+j=g9(b,W(a)),k=j[2],c=[0,j[1],[0,k[1],W(k[2])]]}else{var
 p=W(b),i=a1(a);if(0===i)var
-c=[0,cL(b),[0,jk(b),e]];else
+c=[0,cM(b),[0,jl(b),e]];else
 if(0<i)var
-g=g8(p,a),h=g[2],c=[0,g[1],[0,W(h[1]),h[2]]];else
+g=g9(p,a),h=g[2],c=[0,g[1],[0,W(h[1]),h[2]]];else
 var
-d=g8(p,W(a)),f=d[2],c=[0,d[1],[0,W(f[1]),W(f[2])]]}var
+d=g9(p,W(a)),f=d[2],c=[0,d[1],[0,W(f[1]),W(f[2])]]}var
 r=c[2],s=eH(r[2]);return[0,r[1],s]}function
-bB(a){if(typeof
-a==="number")return uN;else
+bA(a){if(typeof
+a==="number")return uP;else
 switch(a[0]){case
 0:var
-b=bB(a[1]);return bo(b5(1,48),b);case
+b=bA(a[1]);return bo(b6(1,48),b);case
 1:var
-c=bB(a[1]);return bo(b5(1,49),c);case
+c=bA(a[1]);return bo(b6(1,49),c);case
 2:var
-d=bB(a[1]);return bo(b5(1,50),d);case
+d=bA(a[1]);return bo(b6(1,50),d);case
 3:var
-e=bB(a[1]);return bo(b5(1,51),e);case
+e=bA(a[1]);return bo(b6(1,51),e);case
 4:var
-f=bB(a[1]);return bo(b5(1,52),f);case
+f=bA(a[1]);return bo(b6(1,52),f);case
 5:var
-g=bB(a[1]);return bo(b5(1,53),g);case
+g=bA(a[1]);return bo(b6(1,53),g);case
 6:var
-h=bB(a[1]);return bo(b5(1,54),h);case
+h=bA(a[1]);return bo(b6(1,54),h);case
 7:var
-i=bB(a[1]);return bo(b5(1,55),i);case
+i=bA(a[1]);return bo(b6(1,55),i);case
 8:var
-j=bB(a[1]);return bo(b5(1,56),j);default:var
-k=bB(a[1]);return bo(b5(1,57),k)}}function
+j=bA(a[1]);return bo(b6(1,56),j);default:var
+k=bA(a[1]);return bo(b6(1,57),k)}}function
 fI(a){return typeof
-a==="number"?uO:bB(a)}function
-cR(b){return cp(c(2,a),b)}function
-mR(b,a){return dP(a,b)}function
-mS(b,a){return W(dP(W(a),b))}function
-hb(b,a){return W(cP(W(b),a))}function
-J(c,b){var
+a==="number"?uQ:bA(a)}function
+cR(b){return cq(c(2,a),b)}function
+mT(b,a){return dQ(a,b)}function
+mU(b,a){return W(dQ(W(a),b))}function
+hc(b,a){return W(cP(W(b),a))}function
+K(c,b){var
 a=fH(b,c);return[0,a,a]}function
-mT(d,c,a){var
-b=fH(c,d),e=hb(b,a);return[0,cP(b,a),e]}function
+mV(d,c,a){var
+b=fH(c,d),e=hc(b,a);return[0,cP(b,a),e]}function
 w(b,a){return[0,G(b[1],a[1]),G(b[2],a[2])]}function
 B(b,a){return[0,aX(b[1],a[2]),aX(b[2],a[1])]}function
 N(a){return[0,W(a[2]),W(a[1])]}function
-mU(d,c,b,a){if(D(e,d))return D(e,b)?[0,E(d,b),E(c,a)]:D(a,e)?[0,E(c,b),E(d,a)]:[0,E(c,b),E(c,a)];if(D(c,e))return D(e,b)?[0,E(d,a),E(c,b)]:D(a,e)?[0,E(c,a),E(d,b)]:[0,E(d,a),E(d,b)];if(D(e,b))return[0,E(d,a),E(c,a)];if(D(a,e))return[0,E(c,b),E(d,b)];var
-f=by(E(d,b),E(c,a));return[0,jh(E(d,a),E(c,b)),f]}function
+mW(d,c,b,a){if(D(e,d))return D(e,b)?[0,E(d,b),E(c,a)]:D(a,e)?[0,E(c,b),E(d,a)]:[0,E(c,b),E(c,a)];if(D(c,e))return D(e,b)?[0,E(d,a),E(c,b)]:D(a,e)?[0,E(c,a),E(d,b)]:[0,E(d,a),E(d,b)];if(D(e,b))return[0,E(d,a),E(c,a)];if(D(a,e))return[0,E(c,b),E(d,b)];var
+f=bx(E(d,b),E(c,a));return[0,ji(E(d,a),E(c,b)),f]}function
 r(c,b,a){var
-d=mU(b[1],b[2],a[1],a[2]),e=mS(c,d[2]);return[0,mR(c,d[1]),e]}function
+d=mW(b[1],b[2],a[1],a[2]),e=mU(c,d[2]);return[0,mT(c,d[1]),e]}function
 Q(b,a){var
-c=E(a[1],a[1]),d=E(a[2],a[2]),h=mS(b,by(c,d)),g=0;if(I(a[1],e)&&I(e,a[2])){var
+c=E(a[1],a[1]),d=E(a[2],a[2]),h=mU(b,bx(c,d)),g=0;if(I(a[1],e)&&I(e,a[2])){var
 f=e;g=1}if(!g)var
-f=mR(b,jh(c,d));return[0,f,h]}function
-hc(b,a){var
-c=fH(cR(b),b),d=hb(c,a[1]);return[0,cP(c,a[2]),d]}function
-bP(b,a){if(I(e,a[1]))return[0,hc(b,a)];var
-c=I(a[2],e),d=c?[0,N(hc(b,N(a)))]:c;return d}function
-jn(c){var
-b=g_(c);return H(E(b,b),c)?b:G(b,a)}function
-cq(b,a){var
+f=mT(b,ji(c,d));return[0,f,h]}function
+hd(b,a){var
+c=fH(cR(b),b),d=hc(c,a[1]);return[0,cP(c,a[2]),d]}function
+bP(b,a){if(I(e,a[1]))return[0,hd(b,a)];var
+c=I(a[2],e),d=c?[0,N(hd(b,N(a)))]:c;return d}function
+jo(c){var
+b=g$(c);return H(E(b,b),c)?b:G(b,a)}function
+cr(b,a){var
 c=I(e,a[1]);if(c)var
-f=jn(fH(a[2],b)),d=[0,[0,g_(fH(a[1],b)),f]];else
+f=jo(fH(a[2],b)),d=[0,[0,g$(fH(a[1],b)),f]];else
 var
 d=c;return d}function
 eK(a){return 0===a[0]?a[2]:a[1]}function
 aJ(f,e,c,b,a){if(b){if(a){var
 g=aJ(f,e,c,b[2],a[2]);return[0,au(c,b[1],a[1]),g]}return d(f,b)}return d(e,a)}function
-dj(b,a){return dP(b,a)}function
+dj(b,a){return dQ(b,a)}function
 aB(a,c,b){if(D(e,a)){var
 d=b[1],f=W(dj(W(E(a,b[2])),c));return[0,dj(E(a,d),c),f]}var
 g=b[2],h=W(dj(W(E(a,b[1])),c));return[0,dj(E(a,g),c),h]}function
-aj(b){var
-c=W(dP(W(b[2]),a));return[0,dP(b[1],a),c]}function
-b8(c,b,a){var
-d=mU(c[1],c[2],b[1],b[2]),f=d[2],g=d[1],h=I(f,e)?a[2]:a[1],i=hb(f,h),j=I(g,e)?a[1]:a[2];return[0,cP(g,j),i]}function
-bQ(a){return by(a[2],W(a[1]))}var
+ak(b){var
+c=W(dQ(W(b[2]),a));return[0,dQ(b[1],a),c]}function
+bQ(c,b,a){var
+d=mW(c[1],c[2],b[1],b[2]),f=d[2],g=d[1],h=I(f,e)?a[2]:a[1],i=hc(f,h),j=I(g,e)?a[1]:a[2];return[0,cP(g,j),i]}function
+bR(a){return bx(a[2],W(a[1]))}var
 t=[0,e,e];function
-br(a){return[0,a[1],a[1]]}function
-bR(a){return[0,a[2],a[2]]}function
+bq(a){return[0,a[1],a[1]]}function
+bS(a){return[0,a[2],a[2]]}function
 b9(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
@@ -1222,7 +1222,7 @@ d=b[2],c=a[2];continue}return i}return 0;case
 d=b[1],c=a[1];continue}return 0;case
 9:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(10===a[0]){var
-j=cN(b[1],a[1]);if(j){var
+j=cp(b[1],a[1]);if(j){var
 k=a3(b[2],a[2]);if(k){var
 l=a3(b[3],a[3]);if(l){var
 d=b[4],c=a[4];continue}var
@@ -1231,35 +1231,35 @@ var
 e=k}else
 var
 e=j;return e}return 0}}}function
-hd(b){var
+he(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
 bf(c,b){var
-a=hd(b);return a?H(c,a[1]):a}function
-fJ(b){return I(cL(b),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,a))))))))))))))))}function
+a=he(b);return a?H(c,a[1]):a}function
+fJ(b){return I(cM(b),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,a))))))))))))))))}function
 n(a){return[0,[2,a]]}function
 C(b,a){if(bf(e,b))return a;if(bf(e,a))return b;var
-c=hd(b);if(c){var
-d=c[1],f=hd(a);if(f){var
+c=he(b);if(c){var
+d=c[1],f=he(a);if(f){var
 g=f[1];if(fJ(d)&&fJ(g))return n(G(d,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-bC(a){var
+bB(a){var
 b=a[1];switch(b[0]){case
 2:var
 c=b[1];return fJ(c)?n(W(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-A(b,a){if(bf(e,a))return b;if(bf(e,b))return bC(a);var
+A(b,a){if(bf(e,a))return b;if(bf(e,b))return bB(a);var
 c=b[1];if(0===c[0]){var
 d=a[1];return 0===d[0]?m(c[1],d[1])?n(e):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
 _(a){var
-c=hd(a);if(c){var
+c=he(a);if(c){var
 b=c[1];return fJ(b)?n(E(b,b)):[0,[8,a]]}return[0,[8,a]]}function
 u(b,c){if(!bf(e,b)&&!bf(a,c)){if(!bf(e,c)&&!bf(a,b))return a3(b,c)?_(b):[0,[6,b,c]];return c}return b}function
-ak(c,b){return bf(a,b)?c:[0,[7,c,b]]}function
-aQ(b){return bf(a,b)?b:[0,[9,b]]}function
-mV(d,c,b,a){return[0,[10,d,c,b,a]]}function
+aj(c,b){return bf(a,b)?c:[0,[7,c,b]]}function
+aR(b){return bf(a,b)?b:[0,[9,b]]}function
+mX(d,c,b,a){return[0,[10,d,c,b,a]]}function
 eL(b,a){if(a){var
 c=a[3];if(c){var
 d=a[1];return m(d,c[1])?[0,[0,d],[1,b,a[2],c[2]],c[3]]:[0,0,[0,b],a]}return[0,0,[0,b],a]}return[0,0,[0,b],a]}function
-jo(g,f,e){var
+jp(g,f,e){var
 c=f,d=e;for(;;){if(d){if(typeof
 c!=="number"&&2===c[0]){var
 c=c[1],d=d[3];continue}var
@@ -1269,34 +1269,34 @@ b!=="number")switch(b[0]){case
 b=b[1],a=a[2];continue;case
 1:var
 b=b[1],a=a[3];continue}return a[1]}}return g}}function
-jp(a,b){if(0===a[0])return[0,a[1],b];var
-c=jp(a[3],b),d=jp(a[2],c);return[0,a[1],d]}function
-jq(a){if(a){var
-b=jq(a[3]);return jp(a[2],b)}return a}function
-mW(a){if(a){var
+jq(a,b){if(0===a[0])return[0,a[1],b];var
+c=jq(a[3],b),d=jq(a[2],c);return[0,a[1],d]}function
+jr(a){if(a){var
+b=jr(a[3]);return jq(a[2],b)}return a}function
+mY(a){if(a){var
 c=a[3],b=a[2],d=a[1];if(0===b[0])return[0,[0,b[1],c]];var
 e=b[3],f=[0,aY(d),e,c],g=b[2],h=[0,aY(d),g,f];return[0,[0,b[1],h]]}return a}function
-jr(c,b,a){if(0===a[0])return[0,c];var
+js(c,b,a){if(0===a[0])return[0,c];var
 d=a[3],e=a[2],f=a[1];if(typeof
 b!=="number")switch(b[0]){case
-0:return[1,f,jr(c,b[1],e),d];case
-1:return[1,f,e,jr(c,b[1],d)]}return[1,c,e,d]}function
-mX(c,b,a){if(a){var
+0:return[1,f,js(c,b[1],e),d];case
+1:return[1,f,e,js(c,b[1],d)]}return[1,c,e,d]}function
+mZ(c,b,a){if(a){var
 d=a[3],e=a[2],f=a[1];if(typeof
-b!=="number"&&2===b[0])return[0,f,e,mX(c,b[1],d)];var
-g=[0,f,jr(c,b,e),d]}else
+b!=="number"&&2===b[0])return[0,f,e,mZ(c,b[1],d)];var
+g=[0,f,js(c,b,e),d]}else
 var
 g=a;return g}function
 cS(g,f,e){var
 b=e,a=0;for(;;){if(b){var
-c=b[1],d=eL(h(f,b9(function(b){return function(a){return jo(g,a,b)}}(a),c)),a),b=b[2],a=d;continue}return jq(a)}}function
+c=b[1],d=eL(h(f,b9(function(b){return function(a){return jp(g,a,b)}}(a),c)),a),b=b[2],a=d;continue}return jr(a)}}function
 dk(e,g,m,l){var
 b=m,c=l,a=0;for(;;){if(c){var
 d=c[2],f=c[1];if(b){if(b[1]){var
-i=eL(h(g,b9(function(b){return function(a){return jo(e,a,b)}}(a),f)),a),b=bp(b),c=d,a=i;continue}var
+i=eL(h(g,b9(function(b){return function(a){return jp(e,a,b)}}(a),f)),a),b=by(b),c=d,a=i;continue}var
 j=eL(e,a),b=b[2],c=d,a=j;continue}var
-k=eL(h(g,b9(function(b){return function(a){return jo(e,a,b)}}(a),f)),a),b=bp(b),c=d,a=k;continue}return jq(a)}}function
-mY(a){switch(a[0]){case
+k=eL(h(g,b9(function(b){return function(a){return jp(e,a,b)}}(a),f)),a),b=by(b),c=d,a=k;continue}return jr(a)}}function
+m0(a){switch(a[0]){case
 10:return[0,a[2],[0,a[3],[0,a[4],0]]];case
 5:case
 8:case
@@ -1304,52 +1304,52 @@ mY(a){switch(a[0]){case
 0:case
 1:case
 2:return 0;default:return[0,a[1],[0,a[2],0]]}}var
-uP=1;function
-mZ(a,b){return mX(uP,a,b)}function
-m0(e,c){if(c){var
+uR=1;function
+m1(a,b){return mZ(uR,a,b)}function
+m2(e,c){if(c){var
 f=c[2],g=c[1],b=g,a=e;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}var
 d=[0,b]}else
 var
 d=[1,a];if(0===d[0])return[0,e,[0,d[1],f]];var
-h=d[1];return h?[0,g,m0(h,f)]:c}}return[0,e,0]}function
-he(c,b){if(b){var
+h=d[1];return h?[0,g,m2(h,f)]:c}}return[0,e,0]}function
+hf(c,b){if(b){var
 d=b[2];if(c){var
-a=c[2],e=c[1];if(e)return[0,0,he([0,e[1],a],d)];if(a)var
+a=c[2],e=c[1];if(e)return[0,0,hf([0,e[1],a],d)];if(a)var
 h=a[2],f=[0,aY(a[1]),h];else
 var
-f=a;return[0,1,he(f,d)]}var
-g=[0,0,he(0,d)]}else
+f=a;return[0,1,hf(f,d)]}var
+g=[0,0,hf(0,d)]}else
 var
 g=b;return g}function
-m1(b,a){var
-c=0;return an(eL,0,he(bA(function(b,a){return m0(a,b)},b,c),a))}function
-bD(k,h){var
-l=m1(k,h),b=eI(h,0),c=l,a=0;for(;;){if(b){var
-d=mW(c);if(d){var
-e=d[1],f=e[2],g=e[1],i=[0,g,a],j=g?an(mZ,f,mY(b[1])):f,b=b[2],c=j,a=i;continue}return a}return a}}function
+m3(b,a){var
+c=0;return an(eL,0,hf(bz(function(b,a){return m2(a,b)},b,c),a))}function
+bC(k,h){var
+l=m3(k,h),b=eI(h,0),c=l,a=0;for(;;){if(b){var
+d=mY(c);if(d){var
+e=d[1],f=e[2],g=e[1],i=[0,g,a],j=g?an(m1,f,m0(b[1])):f,b=b[2],c=j,a=i;continue}return a}return a}}function
 dl(a){function
 b(a){return[0,a]}return cS(n(e),b,a)}function
 S(a){switch(a[0]){case
 0:return 0;case
-1:return uQ;case
-2:return uR;case
-3:return uS;case
-4:return uT;case
-5:return uU;case
-6:return uV;case
-7:return uW;case
-8:return uX;case
-9:return uY;default:return uZ}}function
+1:return uS;case
+2:return uT;case
+3:return uU;case
+4:return uV;case
+5:return uW;case
+6:return uX;case
+7:return uY;case
+8:return uZ;case
+9:return u0;default:return u1}}function
 a_(J,I,H){var
 e=J,g=I,f=H;for(;;){if(e){var
 j=e[1];if(j){var
-a=f[1],c=g[1],h=x(aY,e);switch(c[0]){case
+a=f[1],c=g[1],h=y(aY,e);switch(c[0]){case
 0:if(0===a[0])return aA(c[1],a[1]);var
 K=S(a);return aA(S(c),K);case
 1:if(1===a[0])return aA(c[1],a[1]);var
 L=S(a);return aA(S(c),L);case
-2:if(2===a[0])return jj(c[1],a[1]);var
+2:if(2===a[0])return jk(c[1],a[1]);var
 M=S(a);return aA(S(c),M);case
 3:if(3===a[0]){var
 k=a_(h,c[2],a[2]);if(k)return k;var
@@ -1385,12 +1385,12 @@ t=a_(h,o,a[4]);if(t)return t;var
 u=a_(h,p,a[3]);if(u)return u;var
 e=h,g=q,f=a[2];continue}var
 W=S(a);return aA(S(c),W)}}return j}var
-b=f[1],d=g[1],i=x(aY,e);switch(d[0]){case
+b=f[1],d=g[1],i=y(aY,e);switch(d[0]){case
 0:if(0===b[0])return aA(d[1],b[1]);var
 X=S(b);return aA(S(d),X);case
 1:if(1===b[0])return aA(d[1],b[1]);var
 Y=S(b);return aA(S(d),Y);case
-2:if(2===b[0])return jj(d[1],b[1]);var
+2:if(2===b[0])return jk(d[1],b[1]);var
 Z=S(b);return aA(S(d),Z);case
 3:if(3===b[0]){var
 v=a_(i,d[2],b[2]);if(v)return v;var
@@ -1404,7 +1404,7 @@ $=S(b);return aA(S(d),$);case
 e=i,g=d[1],f=b[1];continue}var
 aa=S(b);return aA(S(d),aa);case
 6:if(6===b[0]){var
-y=a_(i,d[2],b[2]);if(y)return y;var
+x=a_(i,d[2],b[2]);if(x)return x;var
 e=i,g=d[1],f=b[1];continue}var
 ab=S(b);return aA(S(d),ab);case
 7:if(7===b[0]){var
@@ -1426,15 +1426,15 @@ F=a_(i,A,b[4]);if(F)return F;var
 G=a_(i,B,b[3]);if(G)return G;var
 e=i,g=C,f=b[2];continue}var
 ag=S(b);return aA(S(d),ag)}}}function
-m2(b,a){var
-c=a_(u0,b,a);return c?c:a_(0,b,a)}function
-m3(c,b){var
-a=b;for(;;){if(a)switch(m2(c,a[3])){case
+m4(b,a){var
+c=a_(u2,b,a);return c?c:a_(0,b,a)}function
+m5(c,b){var
+a=b;for(;;){if(a)switch(m4(c,a[3])){case
 0:return[0,a[4]];case
 1:var
 a=a[2];continue;default:var
 a=a[5];continue}return a}}function
-u1(b,d,c,a){if(b){var
+u3(b,d,c,a){if(b){var
 e=b[5],s=b[4],t=b[3],l=b[2];if(b[1]){if(l){if(l[1])return[0,1,[0,0,l[2],l[3],l[4],l[5]],t,s,[0,0,e,d,c,a]];if(e){if(e[1])return[0,1,[0,0,l,t,s,e[2]],e[3],e[4],[0,0,e[5],d,c,a]];if(a){if(a[1]){var
 f=a[5],u=a[4],v=a[3],m=a[2];return m?m[1]?[0,1,[0,0,b,d,c,m[2]],m[3],m[4],[0,0,m[5],v,u,f]]:f?f[1]?[0,1,[0,0,b,d,c,m],v,u,[0,0,f[2],f[3],f[4],f[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:f?f[1]?[0,1,[0,0,b,d,c,m],v,u,[0,0,f[2],f[3],f[4],f[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}if(a){if(a[1]){var
 g=a[5],w=a[4],x=a[3],n=a[2];return n?n[1]?[0,1,[0,0,b,d,c,n[2]],n[3],n[4],[0,0,n[5],x,w,g]]:g?g[1]?[0,1,[0,0,b,d,c,n],x,w,[0,0,g[2],g[3],g[4],g[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:g?g[1]?[0,1,[0,0,b,d,c,n],x,w,[0,0,g[2],g[3],g[4],g[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}if(e){if(e[1])return[0,1,[0,0,l,t,s,e[2]],e[3],e[4],[0,0,e[5],d,c,a]];if(a){if(a[1]){var
@@ -1442,22 +1442,22 @@ h=a[5],y=a[4],z=a[3],o=a[2];return o?o[1]?[0,1,[0,0,b,d,c,o[2]],o[3],o[4],[0,0,o
 i=a[5],A=a[4],B=a[3],p=a[2];return p?p[1]?[0,1,[0,0,b,d,c,p[2]],p[3],p[4],[0,0,p[5],B,A,i]]:i?i[1]?[0,1,[0,0,b,d,c,p],B,A,[0,0,i[2],i[3],i[4],i[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:i?i[1]?[0,1,[0,0,b,d,c,p],B,A,[0,0,i[2],i[3],i[4],i[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}if(a){if(a[1]){var
 j=a[5],C=a[4],D=a[3],q=a[2];return q?q[1]?[0,1,[0,0,b,d,c,q[2]],q[3],q[4],[0,0,q[5],D,C,j]]:j?j[1]?[0,1,[0,0,b,d,c,q],D,C,[0,0,j[2],j[3],j[4],j[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:j?j[1]?[0,1,[0,0,b,d,c,q],D,C,[0,0,j[2],j[3],j[4],j[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}if(a){if(a[1]){var
 k=a[5],E=a[4],F=a[3],r=a[2];return r?r[1]?[0,1,[0,0,b,d,c,r[2]],r[3],r[4],[0,0,r[5],F,E,k]]:k?k[1]?[0,1,[0,0,b,d,c,r],F,E,[0,0,k[2],k[3],k[4],k[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:k?k[1]?[0,1,[0,0,b,d,c,r],F,E,[0,0,k[2],k[3],k[4],k[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}function
-js(b,c,a){if(a){var
-e=a[5],f=a[4],d=a[3],g=a[2],h=a[1]?function(d,c,b,a){return[0,1,d,c,b,a]}:u1;switch(m2(b,d)){case
+jt(b,c,a){if(a){var
+e=a[5],f=a[4],d=a[3],g=a[2],h=a[1]?function(d,c,b,a){return[0,1,d,c,b,a]}:u3;switch(m4(b,d)){case
 0:return a;case
-1:return h(js(b,c,g),d,f,e);default:return h(g,d,f,js(b,c,e))}}return[0,1,0,b,c,0]}function
-m4(d,c,b){var
-a=js(d,c,b),e=a?[0,0,a[2],a[3],a[4],a[5]]:a;return e}function
+1:return h(jt(b,c,g),d,f,e);default:return h(g,d,f,jt(b,c,e))}}return[0,1,0,b,c,0]}function
+m6(d,c,b){var
+a=jt(d,c,b),e=a?[0,0,a[2],a[3],a[4],a[5]]:a;return e}function
 cT(a){var
-b=bA(function(a,b){var
-c=m4(b,a[1],a[2]);return[0,[0,a[1]],c]},a,u2)[2];return function(c){var
-a=m3(c,b),d=a?a[1]:a;return d}}function
-jt(b,a){if(0===a[0])return 0;var
-c=a[3];return H(b,a[1])?0:D(b,c[1])?[1,jt(b,c)]:[0,jt(b,a[2])]}function
-m5(c,a){if(a){var
-b=a[3],d=b?D(c,b[2][1]):b;return d?[2,m5(c,b)]:jt(c,a[2])}return a}function
-dT(k,d){var
-n=m3(k,d[1]);if(n)return[0,n[1],d];var
+b=bz(function(a,b){var
+c=m6(b,a[1],a[2]);return[0,[0,a[1]],c]},a,u4)[2];return function(c){var
+a=m5(c,b),d=a?a[1]:a;return d}}function
+ju(b,a){if(0===a[0])return 0;var
+c=a[3];return H(b,a[1])?0:D(b,c[1])?[1,ju(b,c)]:[0,ju(b,a[2])]}function
+m7(c,a){if(a){var
+b=a[3],d=b?D(c,b[2][1]):b;return d?[2,m7(c,b)]:ju(c,a[2])}return a}function
+dU(k,d){var
+n=m5(k,d[1]);if(n)return[0,n[1],d];var
 b=k[1],e=0;switch(b[0]){case
 0:var
 u=b[1],f=function(a){return[0,u]},c=d;break;case
@@ -1479,39 +1479,39 @@ M=function(b,a){return[7,b,a]},j=M,i=b[2],g=b[1];e=1;break;case
 N=function(a){return[8,a]},m=N,l=b[1];e=2;break;case
 9:var
 O=function(a){return[9,a]},m=O,l=b[1];e=2;break;default:var
-P=b[1],r=dT(b[2],d),Q=r[1],s=dT(b[3],r[2]),R=s[1],t=dT(b[4],s[2]),S=t[1],T=function(a){var
+P=b[1],r=dU(b[2],d),Q=r[1],s=dU(b[3],r[2]),R=s[1],t=dU(b[4],s[2]),S=t[1],T=function(a){var
 b=h(a,S),c=h(a,R);return[10,P,h(a,Q),c,b]},f=T,c=t[2]}switch(e){case
 1:var
-o=dT(g,d),D=o[1],p=dT(i,o[2]),E=p[1],F=function(a){var
+o=dU(g,d),D=o[1],p=dU(i,o[2]),E=p[1],F=function(a){var
 b=h(a,E);return j(h(a,D),b)},f=F,c=p[2];break;case
 2:var
-q=dT(l,d),J=q[1],K=function(a){return m(h(a,J))},f=K,c=q[2];break}var
-v=c[4],w=[0,f(function(a){return m5(a,c[2])}),v],x=G(c[3],a),y=eL(c[3],c[2]),z=[0,m4(k,c[3],c[1]),y,x,w];return[0,c[3],z]}function
+q=dU(l,d),J=q[1],K=function(a){return m(h(a,J))},f=K,c=q[2];break}var
+v=c[4],w=[0,f(function(a){return m7(a,c[2])}),v],x=G(c[3],a),y=eL(c[3],c[2]),z=[0,m6(k,c[3],c[1]),y,x,w];return[0,c[3],z]}function
 dm(a){var
-b=0,c=[0,0,0,e,0];return eI(bA(function(b,a){return dT(a,b)[2]},a,c)[4],b)}function
-hf(a){return an(function(b,a){return G(bQ(b),a)},e,a)}function
+b=0,c=[0,0,0,e,0];return eI(bz(function(b,a){return dU(a,b)[2]},a,c)[4],b)}function
+hg(a){return an(function(b,a){return G(bR(b),a)},e,a)}function
 cU(a,c,b){var
-d=hf(b),e=jh(c[2],G(a[2],d));return[0,a,[0,by(c[1],aX(a[1],d)),e],b]}function
+d=hg(b),e=ji(c[2],G(a[2],d));return[0,a,[0,bx(c[1],aX(a[1],d)),e],b]}function
 R(a){return[0,a,a,0]}function
-cr(b,a){var
+cs(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
 f=aJ(function(a){return a},e,w,d,c),g=w(b[2],a[2]);return cU(w(b[1],a[1]),g,f)}function
 bg(b,a){var
 c=a[3],d=b[3],e=aJ(function(a){return a},N,B,d,c),f=B(b[2],a[2]);return cU(B(b[1],a[1]),f,e)}function
-dU(a){var
+dV(a){var
 b=d(N,a[3]),c=N(a[2]);return[0,N(a[1]),c,b]}function
 aK(a,c,b){var
 d=w(b[2],b[1]),e=w(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=r(a,e,b);return aj(w(r(a,d,c),f))}function
-i(b){return aj(r(a,e,b))}var
-j=aJ(function(b){return aj(r(a,d,b))},i,h,g,f),k=r(a,c[2],b[2]);return cU(r(a,c[1],b[1]),k,j)}function
+f=r(a,e,b);return ak(w(r(a,d,c),f))}function
+i(b){return ak(r(a,e,b))}var
+j=aJ(function(b){return ak(r(a,d,b))},i,h,g,f),k=r(a,c[2],b[2]);return cU(r(a,c[1],b[1]),k,j)}function
 eM(b,a){var
 c=a[3],e=w(a[2],a[1]),f=d(function(a){return r(b,e,a)},c),g=Q(b,a[2]);return cU(Q(b,a[1]),g,f)}function
-ju(a,b){var
-c=cq(a,b[1]);if(c){var
-g=c[1],e=cq(a,b[2]);if(e){var
+jv(a,b){var
+c=cr(a,b[1]);if(c){var
+g=c[1],e=cr(a,b[2]);if(e){var
 h=e[1],f=bP(a,w(h,g));if(f)var
 l=b[3],m=f[1],i=[0,cU(g,h,d(function(b){return r(a,m,b)},l))];else
 var
@@ -1532,25 +1532,25 @@ j=i}else
 var
 j=e;return j}function
 dn(b,a){return a?h(b,a[1]):a}function
-hg(a){var
-b=d(aj,a[3]),c=aj(w(a[2],a[1]));return cU(a[1],c,b)}function
-m6(b,k,j,s,c){var
-l=hg(k),m=hg(j),g=hg(c[1]),h=hg(c[2]),t=aK(b,l,h),u=bg(aK(b,m,g),t),i=eN(b,R(J(b,a)),u);if(i)var
+hh(a){var
+b=d(ak,a[3]),c=ak(w(a[2],a[1]));return cU(a[1],c,b)}function
+m8(b,k,j,s,c){var
+l=hh(k),m=hh(j),g=hh(c[1]),h=hh(c[2]),t=aK(b,l,h),u=bg(aK(b,m,g),t),i=eN(b,R(K(b,a)),u);if(i)var
 f=i[1],n=aK(b,bg(l,g),f),o=aK(b,bg(m,h),f),e=function(c,a){return aK(b,c,R(a))},v=j[3],w=k[3],x=function(b,a){var
-c=e(o,a);return cr(e(n,b),c)},y=function(a){return e(o,a)},z=aJ(function(a){return e(n,a)},y,x,w,v),A=s[3],B=function(b,a){return bg(b,e(f,aj(a)))[2]},C=function(a){return dU(e(f,aj(a)))[2]},p=aJ(function(a){return a[2]},C,B,z,A),D=g[2],E=d(function(a){return r(b,D,a)},p),F=cU(c[2][1],c[2][2],E),G=N(h[2]),H=d(function(a){return r(b,G,a)},p),q=[0,[0,cU(c[1][1],c[1][2],H),F]];else
+c=e(o,a);return cs(e(n,b),c)},y=function(a){return e(o,a)},z=aJ(function(a){return e(n,a)},y,x,w,v),A=s[3],B=function(b,a){return bg(b,e(f,ak(a)))[2]},C=function(a){return dV(e(f,ak(a)))[2]},p=aJ(function(a){return a[2]},C,B,z,A),D=g[2],E=d(function(a){return r(b,D,a)},p),F=cU(c[2][1],c[2][2],E),G=N(h[2]),H=d(function(a){return r(b,G,a)},p),q=[0,[0,cU(c[1][1],c[1][2],H),F]];else
 var
 q=i;return q}function
-jv(b,e,d,k){var
-p=eM(b,d),f=cr(eM(b,e),p),g=bg(cr(f,R(J(b,a))),k),l=aK(b,R(J(b,c(2,a))),f),q=eM(b,g),h=ju(b,bg(aK(b,R(J(b,c(2,c(2,a)))),f),q));if(h){var
-m=h[1],r=aK(b,m,d),i=eN(b,cr(aK(b,g,e),r),l);if(i)var
+jw(b,e,d,k){var
+p=eM(b,d),f=cs(eM(b,e),p),g=bg(cs(f,R(K(b,a))),k),l=aK(b,R(K(b,c(2,a))),f),q=eM(b,g),h=jv(b,bg(aK(b,R(K(b,c(2,c(2,a)))),f),q));if(h){var
+m=h[1],r=aK(b,m,d),i=eN(b,cs(aK(b,g,e),r),l);if(i)var
 s=aK(b,m,e),j=eN(b,bg(aK(b,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
 n=i;var
 o=n}else
 var
 o=h;var
-u=dn(function(a){return m6(b,e,d,k,a)},o);return dn(function(a){return m6(b,e,d,k,a)},u)}function
-cs(d,b,a){if(b){if(a)return au(d,b[1],a[1]);var
+u=dn(function(a){return m8(b,e,d,k,a)},o);return dn(function(a){return m8(b,e,d,k,a)},u)}function
+ct(d,b,a){if(b){if(a)return au(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
@@ -1558,80 +1558,80 @@ b_(b,j,i){var
 f=R(t);return function(a){switch(a[0]){case
 0:return[0,q(a[1],j,f)];case
 1:return[0,q(a[1],i,f)];case
-2:return[0,R(J(b,a[1]))];case
+2:return[0,R(K(b,a[1]))];case
 3:var
-k=a[2],l=a[1];return cs(function(b,a){return[0,cr(b,a)]},l,k);case
+k=a[2],l=a[1];return ct(function(b,a){return[0,cs(b,a)]},l,k);case
 4:var
-m=a[2],n=a[1];return cs(function(b,a){return[0,bg(b,a)]},n,m);case
+m=a[2],n=a[1];return ct(function(b,a){return[0,bg(b,a)]},n,m);case
 5:var
-o=a[1];return dn(function(a){return[0,dU(a)]},o);case
+o=a[1];return dn(function(a){return[0,dV(a)]},o);case
 6:var
-p=a[2],r=a[1];return cs(function(c,a){return[0,aK(b,c,a)]},r,p);case
+p=a[2],r=a[1];return ct(function(c,a){return[0,aK(b,c,a)]},r,p);case
 7:var
-s=a[2],t=a[1];return cs(function(a,c){return eN(b,a,c)},t,s);case
+s=a[2],t=a[1];return ct(function(a,c){return eN(b,a,c)},t,s);case
 8:var
 u=a[1];return dn(function(a){return[0,eM(b,a)]},u);case
 9:var
-v=a[1];return dn(function(a){return ju(b,a)},v);default:var
+v=a[1];return dn(function(a){return jv(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-w=jv(b,c[1],d[1],e[1]),y=a[1]?aH:ao;return x(y,w)}var
+w=jw(b,c[1],d[1],e[1]),x=a[1]?aE:ap;return y(x,w)}var
 g=e}else
 var
 g=d;var
 h=g}else
 var
 h=c;return h}}}function
-dV(c){var
+dW(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 0;case
 1:return 1;case
 6:var
 a=a[1];continue;default:var
-b=dV(a[1]);if(b)return b;var
+b=dW(a[1]);if(b)return b;var
 a=a[2];continue}}function
-ct(r,q){var
+cu(r,q){var
 b=r,a=q;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=H(b[1],a[1]);return c?g6(b[2],a[2]):c}return 0;case
+c=H(b[1],a[1]);return c?g7(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=m(b[1],a[1]),i=h?H(e[1],g[1]):h,j=i?g6(e[2],g[2]):i,k=j?H(d[1],f[1]):j;return k?g6(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=m(b[1],a[1]),i=h?H(e[1],g[1]):h,j=i?g7(e[2],g[2]):i,k=j?H(d[1],f[1]):j;return k?g7(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
-l=ct(b[1],a[1]);if(l){var
+l=cu(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 3:if(3===a[0]){var
-n=ct(b[1],a[1]);if(n){var
+n=cu(b[1],a[1]);if(n){var
 b=b[2],a=a[2];continue}return n}return 0;case
 4:if(4===a[0]){var
-o=ct(b[1],a[1]);if(o){var
+o=cu(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;case
 5:if(5===a[0]){var
-p=ct(b[1],a[1]);if(p){var
+p=cu(b[1],a[1]);if(p){var
 b=b[2],a=a[2];continue}return p}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
 fK(c,b){switch(b[0]){case
 0:return[0,[0,b[1],b[2]]];case
 1:return 0;case
 2:var
-m=b[2],n=b[1],g=m,f=n,d=function(b,a){return[0,dQ(b,a)]};break;case
+m=b[2],n=b[1],g=m,f=n,d=function(b,a){return[0,dR(b,a)]};break;case
 3:var
-o=b[2],p=b[1],g=o,f=p,d=function(b,a){return[0,dR(b,a)]};break;case
+o=b[2],p=b[1],g=o,f=p,d=function(b,a){return[0,dS(b,a)]};break;case
 4:var
 q=b[2],r=b[1],g=q,f=r,d=function(b,a){return[0,bb(b,a)]};break;case
 5:var
-s=b[2],t=b[1],g=s,f=t,d=function(c,b){return eJ(b,[0,e,a])?0:[0,ha(c,b)]};break;default:var
+s=b[2],t=b[1],g=s,f=t,d=function(c,b){return eJ(b,[0,e,a])?0:[0,hb(c,b)]};break;default:var
 k=fK(c,b[1]);return k?h(c,k[1]):k}var
 i=fK(c,f);if(i){var
 j=fK(c,g);if(j)return d(i[1],j[1]);var
 l=j}else
 var
 l=i;return l}function
-u3(a){return 0}function
-cV(a){return fK(u3,a)}function
+u5(a){return 0}function
+cV(a){return fK(u5,a)}function
 b$(b,c){switch(c[0]){case
-0:return[0,mT(b,c[1],c[2])];case
+0:return[0,mV(b,c[1],c[2])];case
 1:return 0;case
 2:var
 g=b$(b,c[1]);if(g)var
@@ -1651,192 +1651,192 @@ v=k;return v;case
 5:var
 m=b$(b,c[1]);if(m){var
 n=b$(b,c[2]);if(n)var
-o=bP(b,n[1]),J=o?[0,r(b,m[1],o[1])]:o,y=J;else
+o=bP(b,n[1]),K=o?[0,r(b,m[1],o[1])]:o,x=K;else
 var
-y=n;var
-z=y}else
+x=n;var
+z=x}else
 var
 z=m;return z;default:var
 A=c[1],p=b$(b,A);if(p){var
-d=p[1];if(I(e,d[1]))return cq(b,d);var
-f=cV(A),K=f?L(bq([0,e,a],f[1])):f;if(K)return 0;if(I(e,d[2])){var
-C=cq(b,[0,d[2],d[2]]);return x(function(a){return[0,e,a[2]]},C)}var
+d=p[1];if(I(e,d[1]))return cr(b,d);var
+f=cV(A),L=f?J(bp([0,e,a],f[1])):f;if(L)return 0;if(I(e,d[2])){var
+C=cr(b,[0,d[2],d[2]]);return y(function(a){return[0,e,a[2]]},C)}var
 q=H(d[2],e),D=q?[0,t]:q;return D}return p}}function
-cW(b,a){return mT(b,a[1],a[2])}function
-m7(b,f,e,d){var
-h=[0,a,c(2,a)],i=[0,cW(b,bb(dR(d,e),h)),0],j=g(X(t,f),i),k=cW(b,d)[2],l=[0,cW(b,e)[1],k],m=[0,a,c(2,a)];return[0,cW(b,bb(dQ(e,d),m)),l,j]}function
+cW(b,a){return mV(b,a[1],a[2])}function
+m9(b,f,e,d){var
+h=[0,a,c(2,a)],i=[0,cW(b,bb(dS(d,e),h)),0],j=g(X(t,f),i),k=cW(b,d)[2],l=[0,cW(b,e)[1],k],m=[0,a,c(2,a)];return[0,cW(b,bb(dR(e,d),m)),l,j]}function
 eO(c,e,a){function
-b(a){return eO(c,e,a)}if(dV(a))switch(a[0]){case
+b(a){return eO(c,e,a)}if(dW(a))switch(a[0]){case
 0:return 0;case
 1:return fm(e,a[1],a[2],a[3]);case
 2:var
-g=b(a[2]),h=b(a[1]);return cs(function(b,a){return[0,cr(b,a)]},h,g);case
+g=b(a[2]),h=b(a[1]);return ct(function(b,a){return[0,cs(b,a)]},h,g);case
 3:var
-i=b(a[2]),j=b(a[1]);return cs(function(b,a){return[0,bg(b,a)]},j,i);case
+i=b(a[2]),j=b(a[1]);return ct(function(b,a){return[0,bg(b,a)]},j,i);case
 4:var
-f=a[2],d=a[1];if(ct(d,f)){var
+f=a[2],d=a[1];if(cu(d,f)){var
 k=b(d);return dn(function(a){return[0,eM(c,a)]},k)}var
-l=b(f),m=b(d);return cs(function(b,a){return[0,aK(c,b,a)]},m,l);case
+l=b(f),m=b(d);return ct(function(b,a){return[0,aK(c,b,a)]},m,l);case
 5:var
-n=b(a[2]),o=b(a[1]);return cs(function(a,b){return eN(c,a,b)},o,n);default:var
-p=b(a[1]);return dn(function(a){return ju(c,a)},p)}return x(R,b$(c,a))}function
-aF(b,a){if(dV(a)){var
+n=b(a[2]),o=b(a[1]);return ct(function(a,b){return eN(c,a,b)},o,n);default:var
+p=b(a[1]);return dn(function(a){return jv(c,a)},p)}return y(R,b$(c,a))}function
+aG(b,a){if(dW(a)){var
 c=eO(b,function(d,c,a){var
-e=aE(d,dW),f=e?bq(c,a):e,g=f?[0,m7(b,d,c,a)]:f;return g},a);return x(function(a){return a[2]},c)}return b$(b,a)}function
-jw(b){var
-d=by(W(b),e);return eH(G(c(2,c(2,c(2,c(2,c(2,c(2,a)))))),d))}function
-m8(a){return jl(G(jw(a),a))}function
-m9(b,a){var
-c=m8(b),d=W(dj(W(a[2]),c)),e=m8(b);return[0,dj(a[1],e),d]}function
+e=aF(d,dX),f=e?bp(c,a):e,g=f?[0,m9(b,d,c,a)]:f;return g},a);return y(function(a){return a[2]},c)}return b$(b,a)}function
+jx(b){var
+d=bx(W(b),e);return eH(G(c(2,c(2,c(2,c(2,c(2,c(2,a)))))),d))}function
+m_(a){return jm(G(jx(a),a))}function
+m$(b,a){var
+c=m_(b),d=W(dj(W(a[2]),c)),e=m_(b);return[0,dj(a[1],e),d]}function
 dp(c,a,b){var
-d=aF(G(c,jw(a)),b);return x(function(b){return m9(a,b)},d)}function
+d=aG(G(c,jx(a)),b);return y(function(b){return m$(a,b)},d)}function
 av(d,a){var
 b=dp(d,a[2],a[1][1]);if(b)var
 c=dp(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-m_(b,a){var
+na(b,a){var
 c=W(dj(W(a[2]),b));return[0,dj(a[1],b),c]}function
-hh(b,a){var
-c=hb(b[2],a);return[0,cP(b[1],a),c]}function
-m$(h,g,d,b){var
-e=b[2],f=mD(d),i=c(2,f),j=E(mz(f),i),a=hh(r(h,b[1],g),j),k=mx(d)?B(e,a):w(e,a);return[0,a,k]}function
-na(b,d,c){if(c){var
-e=c[1];return m$(b,d,e,na(b,d,e))}var
-f=J(b,a);return[0,J(b,a),f]}function
-nb(e,g){var
+hi(b,a){var
+c=hc(b[2],a);return[0,cP(b[1],a),c]}function
+nb(h,g,d,b){var
+e=b[2],f=mF(d),i=c(2,f),j=E(mB(f),i),a=hi(r(h,b[1],g),j),k=mz(d)?B(e,a):w(e,a);return[0,a,k]}function
+nc(b,d,c){if(c){var
+e=c[1];return nb(b,d,e,nc(b,d,e))}var
+f=K(b,a);return[0,K(b,a),f]}function
+nd(e,g){var
 o=cR(e),p=E(c(2,c(2,a)),o),j=D(g[2],p);if(j){var
-n=fF(e),i=u4[1],d=n,f=0,b=i;for(;;){if(d){var
+n=fF(e),i=u6[1],d=n,f=0,b=i;for(;;){if(d){var
 h=d[1];if(b){var
 d=h,b=b[1];continue}var
 d=h,f=[0,f],b=i;continue}var
-k=P(gZ(u7,P(u5,f)),u6),l=na(e,g,k),q=m$(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
+k=P(g0(u9,P(u7,f)),u8),l=nc(e,g,k),q=nb(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
 var
 m=j;return m}function
-nc(i){function
+ne(i){function
 b(h){var
 m=cP(cR(i),h),g=fF(i),f=m,d=e,b=a;for(;;){if(g){var
 j=G(b,c(2,a)),k=G(d,cP(f,b)),l=W(cP(f,E(h,h))),g=g[1],f=l,d=k,b=j;continue}return d}}var
 d=b(s(c(2,s(c(2,s(c(2,s(c(2,c(2,s(c(2,s(c(2,a)))))))))))))),f=E(c(2,c(2,a)),d),g=b(s(c(2,c(2,a))));return aX(E(c(2,c(2,c(2,c(2,a)))),g),f)}function
-nd(d,b){var
+nf(d,b){var
 f=D(e,b);if(f){var
-g=c(2,c(2,a));return nb(d,hh(Q(d,[0,b,b]),g))}return f}function
-ne(b){var
-m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,a)))))))))))),g=aX(nc(b),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,a)))))))))))),h=G(nc(b),n),d=nd(b,g);if(d){var
-f=nd(b,h);if(f)var
+g=c(2,c(2,a));return nd(d,hi(Q(d,[0,b,b]),g))}return f}function
+ng(b){var
+m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,a)))))))))))),g=aX(ne(b),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,a)))))))))))),h=G(ne(b),n),d=nf(b,g);if(d){var
+f=nf(b,h);if(f)var
 i=I(e,d[1][1]),j=i?I(f[1][2],e):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=d;return l}function
-nf(b,d){var
-c=Q(b,d),e=J(b,a);return B(w(c,c),e)}function
+nh(b,d){var
+c=Q(b,d),e=K(b,a);return B(w(c,c),e)}function
 dq(f,j){var
-e=aF(G(f,c(2,c(2,c(2,c(2,c(2,c(2,a))))))),j);if(e){var
-k=e[1],b=G(f,c(2,c(2,c(2,c(2,c(2,c(2,a))))))),d=ne(b);if(d)var
-h=c(2,c(2,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))))),i=nb(b,Q(b,hh(r(b,k,d[1]),h))),g=x(function(a){return nf(b,nf(b,a))},i);else
+e=aG(G(f,c(2,c(2,c(2,c(2,c(2,c(2,a))))))),j);if(e){var
+k=e[1],b=G(f,c(2,c(2,c(2,c(2,c(2,c(2,a))))))),d=ng(b);if(d)var
+h=c(2,c(2,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))))),i=nd(b,Q(b,hi(r(b,k,d[1]),h))),g=y(function(a){return nh(b,nh(b,a))},i);else
 var
 g=d;var
-l=c(2,c(2,c(2,c(2,c(2,c(2,a))))));return x(function(a){return m_(l,a)},g)}return e}function
-jx(b,d){var
-e=ne(G(b,c(2,c(2,c(2,c(2,c(2,c(2,a))))))));return x(function(e){var
-f=c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a))))))))));return hh(r(b,d,m_(c(2,c(2,c(2,c(2,c(2,c(2,a)))))),e)),f)},e)}function
-hi(d,b){return dq(d,[3,b,[0,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a))))))))),a]])}function
+l=c(2,c(2,c(2,c(2,c(2,c(2,a))))));return y(function(a){return na(l,a)},g)}return e}function
+jy(b,d){var
+e=ng(G(b,c(2,c(2,c(2,c(2,c(2,c(2,a))))))));return y(function(e){var
+f=c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a))))))))));return hi(r(b,d,na(c(2,c(2,c(2,c(2,c(2,c(2,a)))))),e)),f)},e)}function
+hj(d,b){return dq(d,[3,b,[0,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a))))))))),a]])}function
 i(i,d,c){var
 f=cV(c);if(f){var
-g=f[1];return d?L(bq(g,[0,e,a])):bq([0,e,a],g)}var
-b=aF(i,c);if(b){var
+g=f[1];return d?J(bp(g,[0,e,a])):bp([0,e,a],g)}var
+b=aG(i,c);if(b){var
 h=b[1];return d?I(e,h[1]):D(e,h[1])}return b}function
-ng(c,b){var
-a=aF(c,b),d=a?1:a;return d}function
+ni(c,b){var
+a=aG(c,b),d=a?1:a;return d}function
 bI(c,a,b){var
-d=ct(a,b),e=d?ng(c,a):d;return e?e:i(c,0,[3,b,a])}function
-u8(c){var
-a=dS(c),g=eH(g_(a[2])),b=[0,g_(a[1]),g],d=I(e,a[1]),f=d?eJ(bb(b,b),c):d,h=f?[0,b]:f;return h}function
-nh(b){if(b){var
-d=b[2],c=b[1];if(eJ(bz([0,e,a],c),[0,e,a])){var
-g=nh(d);return x(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
+d=cu(a,b),e=d?ni(c,a):d;return e?e:i(c,0,[3,b,a])}function
+u_(c){var
+a=dT(c),g=eH(g$(a[2])),b=[0,g$(a[1]),g],d=I(e,a[1]),f=d?eJ(bb(b,b),c):d,h=f?[0,b]:f;return h}function
+nj(b){if(b){var
+d=b[2],c=b[1];if(eJ(bH([0,e,a],c),[0,e,a])){var
+g=nj(d);return y(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
 f=[0,[0,c,d]]}else
 var
 f=b;return f}function
-ni(c,b){var
-d=M(c,b),f=[0,e,a];return an(function(a,b){return dS(dQ(bb(a[1],a[2]),b))},f,d)}function
-nj(c,j){if(c){var
-f=c[1],g=nh(j);if(g){var
+nk(c,b){var
+d=M(c,b),f=[0,e,a];return an(function(a,b){return dT(dR(bb(a[1],a[2]),b))},f,d)}function
+nl(c,j){if(c){var
+f=c[1],g=nj(j);if(g){var
 h=g[1],b=h[1],k=function(c){var
-f=bz([0,e,a],b),g=ha(bz([0,e,a],c),f),h=bp(b),i=M(bp(c),h);return d(function(a){var
-b=bb(g,a[2]);return dS(dR(a[1],b))},i)},l=nj(f,d(k,h[2]));return x(function(c){var
-d=bz([0,e,a],b);return[0,dS(ha(g$(ni(bp(b),c)),d)),c]},l)}var
+f=bH([0,e,a],b),g=hb(bH([0,e,a],c),f),h=by(b),i=M(by(c),h);return d(function(a){var
+b=bb(g,a[2]);return dT(dS(a[1],b))},i)},l=nl(f,d(k,h[2]));return y(function(c){var
+d=bH([0,e,a],b);return[0,dT(hb(ha(nk(by(b),c)),d)),c]},l)}var
 i=[0,[0,[0,a,a],X([0,e,a],f)]]}else
 var
 i=c;return i}function
-nk(a){if(a){var
-b=fK(u8,a[1]);if(b)var
-c=nk(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+nm(a){if(a){var
+b=fK(u_,a[1]);if(b)var
+c=nm(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return u9}function
-nl(a){if(a){var
-b=nk(a[1]);if(b)var
-c=nl(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+d=b;return d}return u$}function
+nn(a){if(a){var
+b=nm(a[1]);if(b)var
+c=nn(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return u_}function
-nm(i,n){var
-b=nl(n);if(b){var
-j=b[1],c=nj(i,j);if(c){var
-d=c[1],g=m(f(d),i),h=g?ag(function(b){return L(eJ(b,[0,e,a]))},d):g;return h?k(function(b){return eJ(ni(b,d),[0,e,a])},j):h}var
+d=b;return d}return va}function
+no(i,n){var
+b=nn(n);if(b){var
+j=b[1],c=nl(i,j);if(c){var
+d=c[1],g=m(f(d),i),h=g?ag(function(b){return J(eJ(b,[0,e,a]))},d):g;return h?k(function(b){return eJ(nk(b,d),[0,e,a])},j):h}var
 l=c}else
 var
 l=b;return l}function
-u$(a){return a}function
-va(a){return a}function
-vb(a,b){return aJ(va,u$,w,a,b)}function
+vb(a){return a}function
 vc(a){return a}function
-vd(a){return a}function
-aL(a,b){return aJ(vd,vc,vb,a,b)}function
-jy(b,f,c,e){if(c){var
-h=c[2],i=J(b,a),g=b8(c[1],i,f);if(e){var
-j=jy(b,f,h,e[2]),k=e[1],l=function(c,a){return B(c,r(b,g,a))},m=function(a){return N(r(b,g,a))};return[0,aJ(function(a){return a},m,l,k,c),j]}var
-n=jy(b,f,h,0);return[0,d(function(a){return N(r(b,g,a))},c),n]}return e}function
+vd(a,b){return aJ(vc,vb,w,a,b)}function
+ve(a){return a}function
+vf(a){return a}function
+aL(a,b){return aJ(vf,ve,vd,a,b)}function
+jz(b,f,c,e){if(c){var
+h=c[2],i=K(b,a),g=bQ(c[1],i,f);if(e){var
+j=jz(b,f,h,e[2]),k=e[1],l=function(c,a){return B(c,r(b,g,a))},m=function(a){return N(r(b,g,a))};return[0,aJ(function(a){return a},m,l,k,c),j]}var
+n=jz(b,f,h,0);return[0,d(function(a){return N(r(b,g,a))},c),n]}return e}function
 eP(h,a){if(a){var
 b=a[1];if(b)var
-c=b[1],d=I(e,c[1]),i=d?[0,jy(h,c,b[2],a[2])]:d,f=i;else
+c=b[1],d=I(e,c[1]),i=d?[0,jz(h,c,b[2],a[2])]:d,f=i;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-nn(g,f,e){var
+np(g,f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
 c=eP(g,b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-no(d,b,a){if(b)if(a)var
-e=a[1],f=no(d,b[2],a[2]),g=cN(d,b[1])?br(e):bR(e),c=[0,g,f];else
+nq(d,b,a){if(b)if(a)var
+e=a[1],f=nq(d,b[2],a[2]),g=cp(d,b[1])?bq(e):bS(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-np(a,b){if(a)if(b)var
-d=np(a[2],b[2]),c=[0,no(a[1],a,b[1]),d];else
+nr(a,b){if(a)if(b)var
+d=nr(a[2],b[2]),c=[0,nq(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
 a4(a){if(a){var
-b=a[1],c=a4(b),e=d(function(a){return[0,1,a]},c),f=a4(b);return g(d(function(a){return[0,0,a]},f),e)}return ve}function
+b=a[1],c=a4(b),e=d(function(a){return[0,1,a]},c),f=a4(b);return g(d(function(a){return[0,0,a]},f),e)}return vg}function
 eQ(c,a){var
-b=f(a);if(nn(c,b,a))return 1;var
-d=a4(aY(b));return k(function(d){return nn(c,b,np([0,0,d],a))},d)}function
+b=f(a);if(np(c,b,a))return 1;var
+d=a4(aY(b));return k(function(d){return np(c,b,nr([0,0,d],a))},d)}function
 aC(a){function
 b(b){var
 c=h(a,b[2]);return[0,d(a,b[1]),c]}return function(a){return d(b,a)}}function
 aq(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
 d=b[1],f=b[2],g=c[1]?w(a,d):B(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-jz(c,b,a){var
+jA(c,b,a){var
 d=a4(c);return k(function(c){return h(a,h(aC(function(a){return aq(c,a)}),b))},d)}function
 fL(h,d,c){if(d)if(c)var
 i=c[2],e=c[1],j=d[2],f=d[1],b=function(c,b){return aB(c,G(h,a),b)},k=fL(h,j,i),l=function(c,a){var
@@ -1845,175 +1845,175 @@ var
 g=c;else
 var
 g=d;return g}function
-cu(b,d,a,c){function
+cv(b,d,a,c){function
 e(c,d){var
 e=aB(d,b,a);return B(w(c,c),e)}function
 f(c){return N(aB(c,b,a))}return aJ(function(a){return w(a,a)},f,e,d,c)}function
-hj(d,i,h,g){var
+hk(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=bR(e[2]),k=aL(a,fL(d,f,cu(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-jA(b,a){return[0,[0,0,b],a]}function
+e=b[1],f=c[1],j=bS(e[2]),k=aL(a,fL(d,f,cv(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+jB(b,a){return[0,[0,0,b],a]}function
 fM(i,b,c,h,g,a){function
 d(a){if(a){var
-j=X([0,N(a[1][2]),0],b),c=hj(h,g,a[2],j),d=m(f(c),b);if(d)return eQ(i,c);var
+j=X([0,N(a[1][2]),0],b),c=hk(h,g,a[2],j),d=m(f(c),b);if(d)return eQ(i,c);var
 e=d}else
 var
-e=a;return e}return jz(b,jA(c,a),d)}function
-hk(g,f,e){var
+e=a;return e}return jA(b,jB(c,a),d)}function
+hl(g,f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],h=d[1],c=eP(g,[0,[0,br(d[2]),h],b]);if(c){var
+d=a[1],h=d[1],c=eP(g,[0,[0,bq(d[2]),h],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-jB(d,b,c,a){function
+jC(d,b,c,a){function
 e(a){if(a){var
-j=X([0,a[1][2],0],b),c=hk(d,a[2],j);if(c){var
+j=X([0,a[1][2],0],b),c=hl(d,a[2],j);if(c){var
 e=c[1],g=m(f(e),b);if(g)return eQ(d,e);var
 h=g}else
 var
 h=c;var
 i=h}else
 var
-i=a;return i}return jz(b,jA(c,a),e)}function
-nq(h,g,a,f,e,c){var
+i=a;return i}return jA(b,jB(c,a),e)}function
+ns(h,g,a,f,e,c){var
 i=[0,t,t,0],b=d(function(a){return[0,a[1],i]},c),j=a?a[1]:[0,t,t,0];return fM(h,g,j,f,e,b)}function
-hl(b,a){var
+hm(b,a){var
 c=a4(b);return k(function(b){return I(e,aq(b,a)[1])},c)}function
 fN(c,b,a){var
 e=a[3],f=d(function(a){return aB(c,b,a)},e),g=a[2];return[0,aB(c,b,a[1]),g,f]}function
-hm(a,b){var
+hn(a,b){var
 c=b[3],d=a[3];function
 e(a){return a}var
 f=aJ(function(a){return a},e,w,d,c),g=a[2];return[0,w(a[1],b[1]),g,f]}function
-nr(a,b){var
+nt(a,b){var
 c=b[3],d=a[3],e=aJ(function(a){return a},N,B,d,c),f=a[2];return[0,B(a[1],b[1]),f,e]}function
-bS(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+bT(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 ah(c,b,a){var
 d=au(c,b[3],a[3]),e=au(c,b[2],a[2]);return[0,au(c,b[1],a[1]),e,d]}function
 a$(b,a){var
 c=u(b,a[3]),d=u(b,a[2]);return[0,u(b,a[1]),d,c]}function
-bs(b,a){var
-c=ak(b[3],a),d=ak(b[2],a);return[0,ak(b[1],a),d,c]}function
+br(b,a){var
+c=aj(b[3],a),d=aj(b[2],a);return[0,aj(b[1],a),d,c]}function
 ac(b,a){var
 c=u(b[3],a[3]),d=u(b[2],a[2]);return C(C(u(b[1],a[1]),d),c)}function
-dX(a){return bs(a,aQ(ac(a,a)))}function
+dY(a){return br(a,aR(ac(a,a)))}function
 dr(a){var
-b=a[5];return b?b[1]:aQ(a[2])}function
-hn(b,a){return b?a:bC(a)}function
-ns(e,a,i,d,h){var
-f=ac(a,e),b=ah(A,e,a$(f,a)),j=ac(b,b),g=A(_(d),j),c=hn(h,aQ(g)),k=A(f,c),l=ah(C,a,bs(b,c));return[0,ah(C,b,a$(c,a)),g,l,k,[0,d],0,[0,i]]}function
-nt(a,e,d){var
-b=ac(a,a),c=aQ(b),f=[0,e],g=x(function(b){return ah(A,a,a$(ac(b,a),b))},d);return[0,a,b,bs(a,c),c,0,g,f]}function
-nu(c,b){var
+b=a[5];return b?b[1]:aR(a[2])}function
+ho(b,a){return b?a:bB(a)}function
+nu(e,a,i,d,h){var
+f=ac(a,e),b=ah(A,e,a$(f,a)),j=ac(b,b),g=A(_(d),j),c=ho(h,aR(g)),k=A(f,c),l=ah(C,a,br(b,c));return[0,ah(C,b,a$(c,a)),g,l,k,[0,d],0,[0,i]]}function
+nv(a,e,d){var
+b=ac(a,a),c=aR(b),f=[0,e],g=y(function(b){return ah(A,a,a$(ac(b,a),b))},d);return[0,a,b,br(a,c),c,0,g,f]}function
+nw(c,b){var
 d=ac(b,c);return[0,b,n(a),b,d,0,0,0]}function
 fO(a){return d(function(a){var
-b=a[2];return[0,bS(a[1]),b]},a)}function
-nv(b){return d(function(b){var
-c=n(a);return[0,bS(b[3]),c]},b)}function
-nw(b,a){var
+b=a[2];return[0,bT(a[1]),b]},a)}function
+nx(b){return d(function(b){var
+c=n(a);return[0,bT(b[3]),c]},b)}function
+ny(b,a){var
 c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]}function
-nx(c,b,a){var
+nz(c,b,a){var
 d=au(c,b[3],a[3]),e=au(c,b[2],a[2]);return[0,au(c,b[1],a[1]),e,d]}function
 eR(d,a){var
-b=cq(d,[0,a[2],a[2]]);if(b){var
+b=cr(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-ho(a,n,f,m,d,l,j){var
-o=nx(bg,l,j),b=nx(function(b,c){return aK(a,b,c)},d,o),c=b[3],g=b[2],h=b[1],i=cr(cr(cr(R(J(a,e)),h),g),c),p=a4(n);return k(function(c){var
-b=nw(function(b){return Q(a,aq(c,b))},d),h=b[3],j=b[2],k=b[1],l=r(a,m,eR(a,w(w(w(J(a,e),k),j),h))),g=B(aq(c,i),l),n=f?B(g,aq(c,f[1])):g;return I(e,n[1])},p)}function
-cv(b){return dP(G(b[1],b[2]),a)}function
+hp(a,n,f,m,d,l,j){var
+o=nz(bg,l,j),b=nz(function(b,c){return aK(a,b,c)},d,o),c=b[3],g=b[2],h=b[1],i=cs(cs(cs(R(K(a,e)),h),g),c),p=a4(n);return k(function(c){var
+b=ny(function(b){return Q(a,aq(c,b))},d),h=b[3],j=b[2],k=b[1],l=r(a,m,eR(a,w(w(w(K(a,e),k),j),h))),g=B(aq(c,i),l),n=f?B(g,aq(c,f[1])):g;return I(e,n[1])},p)}function
+cw(b){return dQ(G(b[1],b[2]),a)}function
 eS(a){var
-b=cv(a);return aX(a[2],b)}function
+b=cw(a);return aX(a[2],b)}function
 cX(c,b){if(b)var
-a=b[1],e=cX([0,c],b[2]),f=eS(a),h=[0,[0,eS(a),f],0],i=g(X(t,c),h),j=cv(a),d=[0,[0,[0,cv(a),j],a,i],e];else
+a=b[1],e=cX([0,c],b[2]),f=eS(a),h=[0,[0,eS(a),f],0],i=g(X(t,c),h),j=cw(a),d=[0,[0,[0,cw(a),j],a,i],e];else
 var
 d=b;return d}function
 ds(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
 e=ds(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,cv(a),f],c],h=cv(a);return[0,[0,[0,a[1],h],c],g]}return vf}function
-ny(d,c,b){if(c){if(b){var
-e=ny(d,c[2],b[2]);return w(aB(c[1],G(d,a),b[1]),e)}return t}return t}function
-dZ(f,a){if(a)var
-g=a[1],c=g[2],e=g[1],h=a[2],b=function(a,b){return ny(f,a,b)},j=dZ(f,h),k=d(function(a){var
+f=a[2],g=[0,[0,cw(a),f],c],h=cw(a);return[0,[0,[0,a[1],h],c],g]}return vh}function
+nA(d,c,b){if(c){if(b){var
+e=nA(d,c[2],b[2]);return w(aB(c[1],G(d,a),b[1]),e)}return t}return t}function
+d0(f,a){if(a)var
+g=a[1],c=g[2],e=g[1],h=a[2],b=function(a,b){return nA(f,a,b)},j=d0(f,h),k=d(function(a){var
 d=b(e,a[2]);return w(b(a[1],c),d)},h),l=b(e,c),i=[0,[0,w(b(e,c),l),k],j];else
 var
 i=a;return i}function
-d0(e,b,d,a){if(b)if(a)var
-f=b[1],g=d0(e,b[2],d,a[2]),c=[0,[0,f,cu(e,a[1][1],d,f)],g];else
+d1(e,b,d,a){if(b)if(a)var
+f=b[1],g=d1(e,b[2],d,a[2]),c=[0,[0,f,cv(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-hp(f,e,c,b,a){if(a){var
+hq(f,e,c,b,a){if(a){var
 g=a[2];if(e){var
-i=hp(f,e[1],c,b,g);return[0,[0,B(t,b),0],i]}var
-j=d(function(a){return[0,B(t,b),0]},g),h=[0,[0,B(N(r(f,c,bR(a[1][2]))),b),0],j]}else
+i=hq(f,e[1],c,b,g);return[0,[0,B(t,b),0],i]}var
+j=d(function(a){return[0,B(t,b),0]},g),h=[0,[0,B(N(r(f,c,bS(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-aU(d,c,a){var
+aV(d,c,a){var
 b=m(f(a),c);return b?eQ(d,a):b}function
-hq(d,b,a){if(b)var
-c=b[1],f=hq([0,d],b[2],a),h=g(X(t,d),[0,a,0]),e=[0,[0,c,[0,aX(c[1],a[2]),G(c[2],a[2])],h],f];else
+hr(d,b,a){if(b)var
+c=b[1],f=hr([0,d],b[2],a),h=g(X(t,d),[0,a,0]),e=[0,[0,c,[0,aX(c[1],a[2]),G(c[2],a[2])],h],f];else
 var
 e=b;return e}function
-nz(d){if(d){var
+nB(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=nz(d[2]);return x(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=nB(d[2]);return y(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return vg}function
-nA(d,c,b,a){return bR(bA(function(e,a){var
-b=bQ(aq(c,a[2]));return w(e,r(d,a[1],[0,b,b]))},a,b))}function
-nB(b,c,a){return c?aw(b,a):ap(b,a)}function
-nC(b,i,h,a){return eR(b,an(function(k,j){var
+f=a;return f}return vi}function
+nC(d,c,b,a){return bS(bz(function(e,a){var
+b=bR(aq(c,a[2]));return w(e,r(d,a[1],[0,b,b]))},a,b))}function
+nD(b,c,a){return c?aw(b,a):ao(b,a)}function
+nE(b,i,h,a){return eR(b,an(function(k,j){var
 p=d(function(b){var
-a=ax(0,i);return d(function(a){return bQ(q(a,b[3],t))},a)},k);function
+a=ax(0,i);return d(function(a){return bR(q(a,b[3],t))},a)},k);function
 a(n,m){var
-o=nB(h,n,p),g=d(function(a){return nB(h,m,a)},o);function
-a(a){return an(by,e,a)}var
+o=nD(h,n,p),g=d(function(a){return nD(h,m,a)},o);function
+a(a){return an(bx,e,a)}var
 i=0;function
 j(a){return a}function
 k(a){return a}var
-c=a(an(function(a,b){return aJ(k,j,mH,a,b)},i,g)),l=[0,c,c],f=a(d(function(a){return an(mH,e,a)},g));return eR(b,r(b,[0,f,f],l))}var
+c=a(an(function(a,b){return aJ(k,j,mJ,a,b)},i,g)),l=[0,c,c],f=a(d(function(a){return an(mJ,e,a)},g));return eR(b,r(b,[0,f,f],l))}var
 c=a(1,1),f=a(1,0),g=a(0,1);return w(j,Q(b,w(w(w(a(0,0),g),f),c)))},t,a))}function
-nD(g,b,f,e){var
+nF(g,b,f,e){var
 h=ax(0,g);return d(function(d){var
-g=f?ae(b,d):aE(d,b);return g?a:cp(c(2,a),e)},h)}function
-nE(b,a){var
+g=f?ae(b,d):aF(d,b);return g?a:cq(c(2,a),e)},h)}function
+nG(b,a){var
 c=M(b,a);return d(function(a){return aB(a[1],e,a[2])},c)}function
-nF(c,b,a){var
+nH(c,b,a){var
 e=[0,[0,a,0],0],f=M(c,b);return g(d(function(a){return g(a[1],[0,a[2],0])},f),e)}function
-nG(g,e){var
+nI(g,e){var
 a=g,b=e;for(;;){if(b){if(a){var
 c=m(f(b[1]),a);if(c){var
 a=a[1],b=b[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-nH(b,a){var
+nJ(b,a){var
 c=M(b,a);return d(function(a){return a[1]?N(a[2]):a[2]},c)}function
-nI(a,f,b,e,c){var
-h=hq(a,X(t,dO(f,a)),c),i=g(d(R,aw(a,b)),h);return g(hq(0,ap(a,b),e),i)}function
-nJ(b,d,c){var
-f=r(b,d,c);return I(e,B(J(b,a),f)[1])}function
-eT(a){return x(function(a){return x(dU,a)},a)}function
-bt(c,b,a){function
-d(a){return aK(c,b,a)}return x(function(a){return x(d,a)},a)}function
-d1(c,b,a){function
-d(a){return eN(c,a,b)}return x(function(a){return dn(d,a)},a)}function
-bu(b,a){if(b){if(a){var
-c=a[1],d=b[1];return[0,cs(function(b,a){return[0,cr(b,a)]},d,c)]}return b}return a}function
+nK(a,f,b,e,c){var
+h=hr(a,X(t,dP(f,a)),c),i=g(d(R,aw(a,b)),h);return g(hr(0,ao(a,b),e),i)}function
+nL(b,d,c){var
+f=r(b,d,c);return I(e,B(K(b,a),f)[1])}function
+eT(a){return y(function(a){return y(dV,a)},a)}function
+bs(c,b,a){function
+d(a){return aK(c,b,a)}return y(function(a){return y(d,a)},a)}function
+d2(c,b,a){function
+d(a){return eN(c,a,b)}return y(function(a){return dn(d,a)},a)}function
+bt(b,a){if(b){if(a){var
+c=a[1],d=b[1];return[0,ct(function(b,a){return[0,cs(b,a)]},d,c)]}return b}return a}function
 eU(b,a){var
-c=M(b,a);return d(function(a){return bu(a[1],a[2])},c)}function
-dt(b){return R(J(b,c(2,a)))}function
-jC(b,av,au,L,c){var
-aw=b9(ao,c),f=h(b_(b,av,au),aw);switch(c[0]){case
+c=M(b,a);return d(function(a){return bt(a[1],a[2])},c)}function
+dt(b){return R(K(b,c(2,a)))}function
+jD(b,av,au,L,c){var
+aw=b9(ap,c),f=h(b_(b,av,au),aw);switch(c[0]){case
 1:var
 O=c[1],e=d(function(d){var
-c=m(O,d),e=c?[0,[0,R(J(b,a))]]:c;return e},L);break;case
+c=m(O,d),e=c?[0,[0,R(K(b,a))]]:c;return e},L);break;case
 3:var
 e=eU(c[1][2],c[2][2]);break;case
 4:var
@@ -2023,32 +2023,32 @@ e=d(eT,c[1][2]);break;case
 6:var
 x=c[2],y=c[1],g=y[1],u=0;if(g){var
 i=x[1];if(i)var
-Q=x[2],S=g[1],T=d(function(a){return bt(b,S,a)},Q),U=y[2],V=i[1],e=eU(d(function(a){return bt(b,V,a)},U),T);else{var
+Q=x[2],S=g[1],T=d(function(a){return bs(b,S,a)},Q),U=y[2],V=i[1],e=eU(d(function(a){return bs(b,V,a)},U),T);else{var
 z=i;u=1}}else{var
 z=g;u=1}if(u)var
 e=z;break;case
 7:var
 v=0;if(f){var
 A=c[2],j=A[1];if(j)var
-W=A[2],X=dU(f[1]),Y=d(function(a){return bt(b,X,a)},W),Z=eU(c[1][2],Y),_=j[1],e=d(function(a){return d1(b,_,a)},Z);else{var
+W=A[2],X=dV(f[1]),Y=d(function(a){return bs(b,X,a)},W),Z=eU(c[1][2],Y),_=j[1],e=d(function(a){return d2(b,_,a)},Z);else{var
 B=j;v=1}}else{var
 B=f;v=1}if(v)var
 e=B;break;case
 8:var
 C=c[1],k=C[1];if(k)var
-$=C[2],aa=k[1],ab=aK(b,dt(b),aa),e=d(function(a){return bt(b,ab,a)},$);else
+$=C[2],aa=k[1],ab=aK(b,dt(b),aa),e=d(function(a){return bs(b,ab,a)},$);else
 var
 e=k;break;case
 9:if(f)var
-ac=c[1][2],ad=f[1],ae=aK(b,dt(b),ad),e=d(function(a){return d1(b,ae,a)},ac);else
+ac=c[1][2],ad=f[1],ae=aK(b,dt(b),ad),e=d(function(a){return d2(b,ae,a)},ac);else
 var
 e=f;break;case
 10:var
 D=c[4],E=c[3],F=c[2],l=F[1],w=0;if(l){var
 n=l[1],o=E[1],M=0;if(o){var
 p=o[1],q=D[1],N=0;if(q){var
-r=jv(b,n,p,q[1]);if(r){var
-G=r[1],s=G[2],t=G[1],af=E[2],ag=bg(p,s),ah=d(function(a){return bt(b,ag,a)},af),ai=F[2],aj=bg(n,t),ak=eU(d(function(a){return bt(b,aj,a)},ai),ah),al=d(eT,D[2]),am=dt(b),an=eU(d(function(a){return bt(b,am,a)},ak),al),ap=c[1]?t:dU(s),aq=d(function(a){return bt(b,ap,a)},an),ar=aK(b,n,s),as=bg(aK(b,p,t),ar),at=aK(b,dt(b),as),e=d(function(a){return d1(b,at,a)},aq);M=1;N=1}else
+r=jw(b,n,p,q[1]);if(r){var
+G=r[1],s=G[2],t=G[1],af=E[2],ag=bg(p,s),ah=d(function(a){return bs(b,ag,a)},af),ai=F[2],aj=bg(n,t),ak=eU(d(function(a){return bs(b,aj,a)},ai),ah),al=d(eT,D[2]),am=dt(b),an=eU(d(function(a){return bs(b,am,a)},ak),al),ao=c[1]?t:dV(s),aq=d(function(a){return bs(b,ao,a)},an),ar=aK(b,n,s),as=bg(aK(b,p,t),ar),at=aK(b,dt(b),as),e=d(function(a){return d2(b,at,a)},aq);M=1;N=1}else
 var
 H=r}else
 var
@@ -2056,9 +2056,9 @@ H=q;if(!N)var
 I=H}else
 var
 I=o;if(!M){var
-K=I;w=1}}else{var
-K=l;w=1}if(w)var
-e=K;break;default:var
+J=I;w=1}}else{var
+J=l;w=1}if(w)var
+e=J;break;default:var
 e=d(function(a){return 0},L)}return[0,f,e]}function
 fP(b,c,a){if(a)var
 f=a[1],g=fP(b,c,a[2]),e=[0,d(function(a){return N(r(b,r(b,c,f),a))},a),g];else
@@ -2066,32 +2066,32 @@ var
 e=a;return e}function
 fQ(a){return k(function(a){var
 b=H(a[1],e);return b?H(a[2],e):b},a)}function
-d2(c,b,a){var
+du(c,b,a){var
 d=M(b,a);return an(function(a,b){return w(r(c,a[1],a[2]),b)},t,d)}function
 eV(c,b,a){var
-d=bQ(d2(c,a,b));return an(function(b,a){return G(bQ(b),a)},d,a)}function
-aV(b){return J(b,a)}function
-jD(a,f,c,d,h){if(!fQ(c)&&!fQ(d)){var
-g=eV(a,f,d),l=aV(a),m=eV(a,f,c),b=b8([0,eV(a,f,c),m],l,[0,g,g])[1],i=I(e,g),j=i?I(e,b):i;if(j)var
-n=aj(hc(a,[0,b,b])),o=function(d,c){return B(r(a,[0,b,b],d),c)},p=[0,b,b],k=[0,aL(h,fP(a,n,aJ(function(b){return r(a,p,b)},N,o,d,c)))];else
+d=bR(du(c,a,b));return an(function(b,a){return G(bR(b),a)},d,a)}function
+aO(b){return K(b,a)}function
+jE(a,f,c,d,h){if(!fQ(c)&&!fQ(d)){var
+g=eV(a,f,d),l=aO(a),m=eV(a,f,c),b=bQ([0,eV(a,f,c),m],l,[0,g,g])[1],i=I(e,g),j=i?I(e,b):i;if(j)var
+n=ak(hd(a,[0,b,b])),o=function(d,c){return B(r(a,[0,b,b],d),c)},p=[0,b,b],k=[0,aL(h,fP(a,n,aJ(function(b){return r(a,p,b)},N,o,d,c)))];else
 var
 k=j;return k}return[0,h]}function
 fR(h,g,f,e,d){var
 a=e,b=d;for(;;){if(a){var
-c=jD(h,g,f,a[1],b);if(c){var
+c=jE(h,g,f,a[1],b);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-nK(a){var
+nM(a){var
 b=a[2],c=d(function(a){return[0,a[1],t]},b);return[0,[0,a[1][1],t],c]}function
-jE(h,n,a,m,l,k){var
+jF(h,n,a,m,l,k){var
 e=m,c=l,b=k;for(;;){if(e){if(c){var
-i=c[1],j=i[1],f=e[1],o=bR(j[2]),p=aL(b,fL(a,f,cu(a,j[1],o,f))),q=i[2],r=d(function(c){return function(b){return d(aj,cu(a,b[1],b[2],c))}}(f),q),g=fR(h,n,d(function(b){return aB(b,a,aV(h))},f),r,p);if(g){var
+i=c[1],j=i[1],f=e[1],o=bS(j[2]),p=aL(b,fL(a,f,cv(a,j[1],o,f))),q=i[2],r=d(function(c){return function(b){return d(ak,cv(a,b[1],b[2],c))}}(f),q),g=fR(h,n,d(function(b){return aB(b,a,aO(h))},f),r,p);if(g){var
 e=e[2],c=c[2],b=g[1];continue}return g}return[0,b]}return[0,b]}}function
-nL(a,j,r,q){var
+nN(a,j,r,q){var
 c=r,f=q;for(;;){if(c){var
-k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,br(g),h],f];if(m){var
+k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,bq(g),h],f];if(m){var
 o=I(e,g[1]);if(o)var
 s=d(function(a){var
-b=a[1];return[0,aj(a[2]),b]},m),u=d(function(a){return t},h),v=[0,aV(a),u],w=aV(a),b=fR(a,[0,N(b8(d2(a,h,j),w,g)),j],v,s,n);else
+b=a[1];return[0,ak(a[2]),b]},m),u=d(function(a){return t},h),v=[0,aO(a),u],w=aO(a),b=fR(a,[0,N(bQ(du(a,h,j),w,g)),j],v,s,n);else
 var
 b=o}else
 var
@@ -2101,45 +2101,45 @@ c=c[2],f=i[1];continue}var
 p=i}else
 var
 p=b;return p}return[0,f]}}function
-nM(c,b,a){var
-e=ax(0,a);return d(function(a){return m(a,b)?aV(c):t},e)}function
-nN(c,b,a){if(b){if(a){var
-d=nN(c,b[2],a[2]);return w(aB(b[1],c,a[1]),d)}return t}return t}function
-nO(b,j){switch(j){case
+nO(c,b,a){var
+e=ax(0,a);return d(function(a){return m(a,b)?aO(c):t},e)}function
+nP(c,b,a){if(b){if(a){var
+d=nP(c,b[2],a[2]);return w(aB(b[1],c,a[1]),d)}return t}return t}function
+nQ(b,j){switch(j){case
 0:var
 d=aX(b[2],b[1]),e=b[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
 f=aX(b[1],b[2]),g=b[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-c=dP(G(b[1],b[2]),a),h=aX(c,b[2]),i=aX(b[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+c=dQ(G(b[1],b[2]),a),h=aX(c,b[2]),i=aX(b[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
 fS(d,c,a){if(a)var
-e=a[1],g=fS(d,[0,c],a[2]),b=x(aH,mK(function(a){return m(a[1],c)},d)),h=b?nO(e,b[1])[1]:e,f=[0,h,g];else
+e=a[1],g=fS(d,[0,c],a[2]),b=y(aE,mM(function(a){return m(a[1],c)},d)),h=b?nQ(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}function
-nP(a,b){return d(function(a){var
-c=a[2];return nO(q(a[1],b,t),c)[2]},a)}function
-hr(i,b,f,a){function
+nR(a,b){return d(function(a){var
+c=a[2];return nQ(q(a[1],b,t),c)[2]},a)}function
+hs(i,b,f,a){function
 e(a){return aq(b,a[1])}var
 h=0,j=R(t);function
 c(f,e,a,b){if(a){var
 h=function(a){return aq(f,q(e,a[2],j))},k=d(h,b[1]),l=h(b[2]),m=c(f,[0,e],a[2],b),n=a[1];return g(d(function(a){var
 b=r(i,a,l);return[0,d(function(b){return r(i,a,b)},k),b]},n),m)}return a}var
 k=c(b,h,f,a),l=e(a[2]);return[0,[0,d(e,a[1]),l],k]}var
-vw=R(t);function
-nQ(e,d,c){if(d){var
-f=q(e,c[2],vx),a=f?f[1]:[0,vw];if(a)var
-b=nQ([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+vy=R(t);function
+nS(e,d,c){if(d){var
+f=q(e,c[2],vz),a=f?f[1]:[0,vy];if(a)var
+b=nS([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return vy}function
+g=a;return g}return vA}function
 cY(b,a){return ag(function(a){return m(b,a)},a)}function
 cZ(d,b,a){if(b)if(a)var
-e=a[1],f=b[1],c=[0,cs(function(b,a){return[0,aK(d,b,a)]},f,e)];else
+e=a[1],f=b[1],c=[0,ct(function(b,a){return[0,aK(d,b,a)]},f,e)];else
 var
 c=a;else
 var
 c=b;return c}function
-cw(b,a){return bu(b,eT(a))}function
-hs(f,e,d,c,b){if(e)if(d)if(c)if(b)var
-g=e[1],h=hs(f,e[2],d[2],c[2],b[2]),a=[0,Lz(f,g[1],g[2],d[1],c[1],b[1]),h];else
+cx(b,a){return bt(b,eT(a))}function
+ht(f,e,d,c,b){if(e)if(d)if(c)if(b)var
+g=e[1],h=ht(f,e[2],d[2],c[2],b[2]),a=[0,LD(f,g[1],g[2],d[1],c[1],b[1]),h];else
 var
 a=b;else
 var
@@ -2148,127 +2148,127 @@ var
 a=d;else
 var
 a=e;return a}function
-bT(b,a){return q(a,b[2],nR)}function
-nS(d,b,a,c){if(m(a,c)){var
-f=bT(b,a),e=function(a){return eM(d,a)};return x(function(a){return x(e,a)},f)}var
-g=bT(b,c);return cZ(d,bT(b,a),g)}function
-nT(b,a){return q(a,d(ao,b),0)}function
-nU(a){if(a){var
-b=a[1],c=nU(a[2]);return g(d(function(a){return[0,b,a]},a),c)}return a}function
-ht(a,b){var
-c=ax(0,f(a));return nU(aP(function(c){return cY(nT(a,c),b)},c))}function
-nV(a){if(a){var
+bU(b,a){return q(a,b[2],nT)}function
+nU(d,b,a,c){if(m(a,c)){var
+f=bU(b,a),e=function(a){return eM(d,a)};return y(function(a){return y(e,a)},f)}var
+g=bU(b,c);return cZ(d,bU(b,a),g)}function
+nV(b,a){return q(a,d(ap,b),0)}function
+nW(a){if(a){var
+b=a[1],c=nW(a[2]);return g(d(function(a){return[0,b,a]},a),c)}return a}function
+hu(a,b){var
+c=ax(0,f(a));return nW(aN(function(c){return cY(nV(a,c),b)},c))}function
+nX(a){if(a){var
 d=a[1],b=d?d[1]:[0,R(t)];if(b)var
-c=nV(a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+c=nX(a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return vz}function
+e=b;return e}return vB}function
 fT(h,a,e,c){var
-b=nP(a,c),f=ht(a,e);return g(b,d(function(a){if(m(a[1],a[2])){var
+b=nR(a,c),f=hu(a,e);return g(b,d(function(a){if(m(a[1],a[2])){var
 c=q(a[1],b,0);if(c)var
-e=c[1],f=[0,aj(r(h,e,e)),0];else
+e=c[1],f=[0,ak(r(h,e,e)),0];else
 var
 f=c;return f}var
-g=q(a[1],b,0);return y(function(c){var
+g=q(a[1],b,0);return x(function(c){var
 e=q(a[2],b,0);return d(function(a){return r(h,c,a)},e)},g)},f))}function
-nW(b,c,i,p,o,g,n){var
+nY(b,c,i,p,o,g,n){var
 e=a4(c);return k(function(e){var
 f=h(n,e);if(f){var
-q=r(b,o,f[1]),j=B(J(b,a),q),s=i?B(j,aq(e,i[1])):j,k=function(a){function
+q=r(b,o,f[1]),j=B(K(b,a),q),s=i?B(j,aq(e,i[1])):j,k=function(a){function
 f(c){return r(b,a,aq(e,c))}var
-g=d(function(a){return d(f,a)},p);return aU(b,c,aL(X([0,s,0],c),g))},l=k(aj(g));if(l)return k(N(aj(g)));var
+g=d(function(a){return d(f,a)},p);return aV(b,c,aL(X([0,s,0],c),g))},l=k(ak(g));if(l)return k(N(ak(g)));var
 m=l}else
 var
 m=f;return m},e)}function
-nX(c,b,a){if(a){var
+nZ(c,b,a){if(a){var
 d=a[2];if(c){var
-f=nX(c[1],b,d);return[0,a[1],f]}var
+f=nZ(c[1],b,d);return[0,a[1],f]}var
 e=[0,b,d]}else
 var
 e=a;return e}function
 eW(a,g){var
-b=aP(function(d){var
-c=q(d,a,t),b=D(c[1],e),f=b?D(e,c[2]):b;return L(f)},g);if(b){if(b[2])return a;var
-f=b[1],c=q(f,a,t),d=I(e,c[1])?c[1]:c[2];return nX(f,[0,d,d],a)}return a}function
-nY(c,a){if(a)var
-b=a[2],f=nY(c,b),g=b?b[1]:d(uL,c),e=[0,[0,a[1],g],f];else
+b=aN(function(d){var
+c=q(d,a,t),b=D(c[1],e),f=b?D(e,c[2]):b;return J(f)},g);if(b){if(b[2])return a;var
+f=b[1],c=q(f,a,t),d=I(e,c[1])?c[1]:c[2];return nZ(f,[0,d,d],a)}return a}function
+n0(c,a){if(a)var
+b=a[2],f=n0(c,b),g=b?b[1]:d(uN,c),e=[0,[0,a[1],g],f];else
 var
 e=a;return e}function
-jF(a){return a?nY(a[1],a):a}function
-du(c,d,b,a){if(d){var
+jG(a){return a?n0(a[1],a):a}function
+dv(c,d,b,a){if(d){var
 e=d[1];if(a){var
-f=du(c,e,b,a[2]);return[0,a[1],f]}return[0,c,du(c,e,b,0)]}return a?[0,b,a[2]]:[0,b,0]}function
-hu(a,c,b){if(c)if(b)var
-g=b[2],e=b[1],h=c[2],d=c[1],i=hu(a,h,g),j=function(c,b){var
+f=dv(c,e,b,a[2]);return[0,a[1],f]}return[0,c,dv(c,e,b,0)]}return a?[0,b,a[2]]:[0,b,0]}function
+hv(a,c,b){if(c)if(b)var
+g=b[2],e=b[1],h=c[2],d=c[1],i=hv(a,h,g),j=function(c,b){var
 f=r(a,e,b);return w(r(a,d,c),f)},k=function(b){return r(a,e,b)},l=aJ(function(b){return r(a,d,b)},k,j,g,h),f=[0,[0,r(a,w(d,d),e),l],i];else
 var
 f=b;else
 var
 f=c;return f}function
-dv(d,c,b,a){return du(t,c,d2(d,a,b),a)}function
-jG(a,f,e,b,d,c){var
+dw(d,c,b,a){return dv(t,c,du(d,a,b),a)}function
+jH(a,f,e,b,d,c){var
 g=ax(0,b);return an(function(g,c){var
-h=dv(a,f,e,nM(a,g,b));return aL(c,fP(a,N(d),h))},c,g)}function
-jH(b,e,c,j,i,h,g,f){var
-k=dv(b,e,c,d(function(a){return J(b,E(h,a))},i));return aL(f,hu(b,dv(b,e,c,d(function(c){return aB(c,G(g,a),aV(b))},j)),k))}function
-jI(a,h,g,q,f,p,o,n){var
+h=dw(a,f,e,nO(a,g,b));return aL(c,fP(a,N(d),h))},c,g)}function
+jI(b,e,c,j,i,h,g,f){var
+k=dw(b,e,c,d(function(a){return K(b,E(h,a))},i));return aL(f,hv(b,dw(b,e,c,d(function(c){return aB(c,G(g,a),aO(b))},j)),k))}function
+jJ(a,h,g,q,f,p,o,n){var
 e=p,c=o,b=n;for(;;){if(e){if(c){var
-k=c[1],l=k[1],i=e[1],m=dv(a,h,g,d(function(b){return aB(b,f,aV(a))},i)),r=bR(l[2]),s=dv(a,h,g,cu(f,l[1],r,i)),t=aL(b,hu(a,d(aj,m),s)),u=k[2],j=fR(a,q,m,d(function(c){return function(b){return dv(a,h,g,d(aj,cu(f,b[1],b[2],c)))}}(i),u),t);if(j){var
+k=c[1],l=k[1],i=e[1],m=dw(a,h,g,d(function(b){return aB(b,f,aO(a))},i)),r=bS(l[2]),s=dw(a,h,g,cv(f,l[1],r,i)),t=aL(b,hv(a,d(ak,m),s)),u=k[2],j=fR(a,q,m,d(function(c){return function(b){return dw(a,h,g,d(ak,cv(f,b[1],b[2],c)))}}(i),u),t);if(j){var
 e=e[2],c=c[2],b=j[1];continue}return j}return[0,b]}return[0,b]}}function
-nZ(g,b,f,a){if(a)var
-c=a[2],d=a[1],h=q(b,c,t),e=[0,d,du(t,b,w(r(g,f,d),h),c)];else
+n1(g,b,f,a){if(a)var
+c=a[2],d=a[1],h=q(b,c,t),e=[0,d,dv(t,b,w(r(g,f,d),h),c)];else
 var
 e=a;return e}function
-n0(a,b,m,D,C,B){var
+n2(a,b,m,D,C,B){var
 i=C,h=B;for(;;){if(i){var
-n=i[1],o=n[1],j=o[2],p=n[2],c=dv(a,b,m,o[1]);if(p){var
+n=i[1],o=n[1],j=o[2],p=n[2],c=dw(a,b,m,o[1]);if(p){var
 s=I(e,j[1]);if(s)var
-E=aV(a),f=br(N(b8(q(b,c,t),E,j))),k=br(j),v=du(t,b,f,0),x=q(b,c,t),y=aL(h,hu(a,v,du(t,b,w(aj(r(a,f,k)),x),c))),z=q(b,c,t),A=[0,[0,k,du(t,b,w(r(a,f,k),z),c)],y],F=d(function(e){return function(c){var
-d=dv(a,b,m,c[1]);return nZ(a,b,e,[0,aj(c[2]),d])}}(f),p),G=d(function(a){return t},c),g=fR(a,[0,t,D],nZ(a,b,f,[0,aV(a),G]),F,A);else
+E=aO(a),f=bq(N(bQ(q(b,c,t),E,j))),k=bq(j),v=dv(t,b,f,0),x=q(b,c,t),y=aL(h,hv(a,v,dv(t,b,w(ak(r(a,f,k)),x),c))),z=q(b,c,t),A=[0,[0,k,dv(t,b,w(r(a,f,k),z),c)],y],F=d(function(e){return function(c){var
+d=dw(a,b,m,c[1]);return n1(a,b,e,[0,ak(c[2]),d])}}(f),p),G=d(function(a){return t},c),g=fR(a,[0,t,D],n1(a,b,f,[0,aO(a),G]),F,A);else
 var
 g=s}else
 var
-g=[0,[0,[0,br(j),c],h]];if(g){var
+g=[0,[0,[0,bq(j),c],h]];if(g){var
 l=eP(a,g[1]);if(l){var
 i=i[2],h=l[1];continue}var
 u=l}else
 var
 u=g;return u}return[0,h]}}function
-jJ(c,b,a){if(b){var
-d=a?[0,c,jJ(c,b[1],a[2])]:a;return d}return a}function
-jK(b,a){return an(function(c,a){return w(Q(b,c),a)},t,a)}function
-n1(b,a,d,c){function
+jK(c,b,a){if(b){var
+d=a?[0,c,jK(c,b[1],a[2])]:a;return d}return a}function
+jL(b,a){return an(function(c,a){return w(Q(b,c),a)},t,a)}function
+n3(b,a,d,c){function
 e(d,c){return B(d,r(b,a,c))}function
 f(c){return N(r(b,a,c))}return aJ(function(a){return a},f,e,d,c)}function
-jL(a,c,b){if(c)if(b)var
-g=b[2],d=b[1],h=c[2],e=c[1],j=jL(a,h,g),i=r(a,e,d),k=function(c,b){var
+jM(a,c,b){if(c)if(b)var
+g=b[2],d=b[1],h=c[2],e=c[1],j=jM(a,h,g),i=r(a,e,d),k=function(c,b){var
 f=r(a,d,b);return w(r(a,e,c),f)},l=function(b){return r(a,d,b)},m=aJ(function(b){return r(a,e,b)},l,k,g,h),f=[0,[0,w(i,i),m],j];else
 var
 f=b;else
 var
 f=c;return f}function
-n2(b,e,f,a){if(a){var
-c=a[1],i=a[2],j=n2(b,e,aY(f),i);if(c)var
-k=c[2],l=d(function(a){return r(b,e,N(a))},k),m=c[1],n=f?t:aV(b),g=[0,r(b,e,B(n,m)),l];else
+n4(b,e,f,a){if(a){var
+c=a[1],i=a[2],j=n4(b,e,aY(f),i);if(c)var
+k=c[2],l=d(function(a){return r(b,e,N(a))},k),m=c[1],n=f?t:aO(b),g=[0,r(b,e,B(n,m)),l];else
 var
 g=c;var
 h=[0,g,j]}else
 var
 h=a;return h}function
-vE(a,b,o,c,k,j,i){if(H(j[1],e))return jD(a,b,c,k,i);var
-l=br(j);function
+vG(a,b,o,c,k,j,i){if(H(j[1],e))return jE(a,b,c,k,i);var
+l=bq(j);function
 p(g){if(I(e,j[1]))return[0,i];var
-c=h(g,0),k=f(b),d=m(f(c),k),n=d?[0,aL(i,n2(a,l,o,c))]:d;return n}var
-q=bP(a,d2(a,c,b));if(q)var
-n=q[1],s=jJ(t,o,b),z=d(function(b){return r(a,b,n)},s),u=n1(a,r(a,r(a,aj(jK(a,s)),n),n),z,c),A=p(function(b){return jL(a,c,u)}),x=function(c,b){return w(c,r(a,l,b))},y=function(b){return r(a,l,b)},g=A,v=aJ(function(a){return a},y,x,k,u);else
+c=h(g,0),k=f(b),d=m(f(c),k),n=d?[0,aL(i,n4(a,l,o,c))]:d;return n}var
+q=bP(a,du(a,c,b));if(q)var
+n=q[1],s=jK(t,o,b),z=d(function(b){return r(a,b,n)},s),u=n3(a,r(a,r(a,ak(jL(a,s)),n),n),z,c),A=p(function(b){return jM(a,c,u)}),x=function(c,b){return w(c,r(a,l,b))},y=function(b){return r(a,l,b)},g=A,v=aJ(function(a){return a},y,x,k,u);else
 var
-g=p(function(a){return X([0,t,0],f(b))}),v=k;return g?jD(a,b,c,v,g[1]):g}function
-hv(a,g,z,S,c,R,P){var
+g=p(function(a){return X([0,t,0],f(b))}),v=k;return g?jE(a,b,c,v,g[1]):g}function
+hw(a,g,z,S,c,R,P){var
 i=R,h=P;for(;;){if(i){var
 A=i[1],n=A[2],j=A[1];if(z&&I(e,n[1])){var
-f=z[1],o=br(n),k=aL(h,fP(a,o,f)),C=0;if(fQ(c)||fQ(j))C=1;else{var
-l=eV(a,g,j),D=aV(a),E=eV(a,g,c),b=b8([0,eV(a,g,c),E],D,[0,l,l])[1],p=I(e,l),q=p?I(e,b):p;if(q){var
-F=aj(hc(a,[0,b,b])),G=function(b){return function(d,c){return B(r(a,[0,b,b],d),c)}}(b),H=[0,b,b],m=aJ(function(c){return function(b){return r(a,c,b)}}(H),N,G,j,c),J=jK(a,f),K=w(aV(a),J),L=aV(a),s=br(b8(d2(a,m,f),L,K)),M=Q(a,s),t=w(jK(a,n1(a,s,m,f)),M),u=I(e,t[1]);if(u)var
-v=bR(B(F,b8(o,aV(a),t))),O=I(e,v[1])?aL(k,fP(a,v,m)):k,x=[0,O];else
+f=z[1],o=bq(n),k=aL(h,fP(a,o,f)),C=0;if(fQ(c)||fQ(j))C=1;else{var
+l=eV(a,g,j),D=aO(a),E=eV(a,g,c),b=bQ([0,eV(a,g,c),E],D,[0,l,l])[1],p=I(e,l),q=p?I(e,b):p;if(q){var
+F=ak(hd(a,[0,b,b])),G=function(b){return function(d,c){return B(r(a,[0,b,b],d),c)}}(b),H=[0,b,b],m=aJ(function(c){return function(b){return r(a,c,b)}}(H),N,G,j,c),J=jL(a,f),K=w(aO(a),J),L=aO(a),s=bq(bQ(du(a,m,f),L,K)),M=Q(a,s),t=w(jL(a,n3(a,s,m,f)),M),u=I(e,t[1]);if(u)var
+v=bS(B(F,bQ(o,aO(a),t))),O=I(e,v[1])?aL(k,fP(a,v,m)):k,x=[0,O];else
 var
 x=u;var
 y=x}else
@@ -2277,88 +2277,96 @@ y=q;var
 d=y}if(C)var
 d=[0,k]}else
 var
-d=vE(a,g,S,c,j,n,h);if(d){var
+d=vG(a,g,S,c,j,n,h);if(d){var
 i=i[2],h=d[1];continue}return d}return[0,h]}}function
-n3(a,c){return an(function(b,a){return m(b[1],c)?G(b[2],a):a},e,a)}function
-jM(e,d,a){return an(function(b,a){return w(an(function(a,b){var
+n5(a,c){return an(function(b,a){return m(b[1],c)?G(b[2],a):a},e,a)}function
+jN(e,d,a){return an(function(b,a){return w(an(function(a,b){var
 c=q(a[1],d,t);return w(aB(a[2],e,c),b)},t,b),a)},t,a)}function
-n4(c,j,i,h,a,f,b){if(a){var
+n6(c,j,i,h,a,f,b){if(a){var
 k=function(a){var
-b=R(t);return aq(i,q(h,a[2],b))},m=d(k,b[1]),n=k(b[2]),l=bz(e,f),o=bp(f),p=n4(c,j,i,[0,h],a[2],o,b),s=a[1];return g(d(function(a){var
+b=R(t);return aq(i,q(h,a[2],b))},m=d(k,b[1]),n=k(b[2]),l=bH(e,f),o=by(f),p=n6(c,j,i,[0,h],a[2],o,b),s=a[1];return g(d(function(a){var
 b=H(l,e)?t:aB(l,j,a),f=r(c,a,n);return[0,[0,d(function(b){return r(c,a,b)},m),f],b]},s),p)}return a}function
-n5(h,g,b,f,e,a){function
+n7(h,g,b,f,e,a){function
 c(a){return aq(b,a[1])}var
-i=n4(h,g,b,0,f,e,a),j=c(a[2]);return[0,[0,d(c,a[1]),j],i]}function
-n6(a){var
+i=n6(h,g,b,0,f,e,a),j=c(a[2]);return[0,[0,d(c,a[1]),j],i]}function
+n8(a){var
 b=H(a[1][1],e),c=b?H(a[1][2],e):b,d=c?H(a[2][1],e):c,f=d?H(a[2][2],e):d;if(f){if(a[3])return 0;var
 g=1}else
 var
 g=f;return g}function
-n7(b,a){var
+n9(b,a){var
 c=M(ax(0,f(b)),b);return k(function(b){var
 c=H(b[2],e);if(c)return c;var
 d=[0,a[2],a[1]];return ag(function(a){var
-c=R(t);return L(n6(q(b[1],a[2],c)))},d)},c)}function
-n8(g,f,c){var
+c=R(t);return J(n8(q(b[1],a[2],c)))},d)},c)}function
+n_(g,f,c){var
 b=g,a=f;for(;;){if(b){var
-d=b[2],e=n8(d,a,c);if(e){var
+d=b[2],e=n_(d,a,c);if(e){var
 i=[0,b[1],a],b=d,a=i;continue}return e}return h(c,a)}}function
-n9(a){return typeof
+fU(a){return typeof
 a==="number"?0:1}function
-n_(b,a){var
+n$(a){if(typeof
+a!=="number"&&1===a[0])return m(a[1],a[2]);return 0}function
+oa(b,a){var
 c=w(b[2],a[2]),d=a[1],e=b[1];function
 f(a){return a}return[0,aJ(function(a){return a},f,w,e,d),c]}function
-n$(g,f,c){var
+ob(g,f,c){var
 b=g,a=f;for(;;){if(a){var
-d=a[2],e=n$(b,d,c);if(e){var
-b=n_(b,a[1]),a=d;continue}return e}return h(c,b)}}function
-oa(a,b){if(a)var
-d=aw(a,b),e=oa(a[1],d),c=[0,ap(a,b),e];else
+d=a[2],e=ob(b,d,c);if(e){var
+b=oa(b,a[1]),a=d;continue}return e}return h(c,b)}}function
+oc(a,b){if(a)var
+d=aw(a,b),e=oc(a[1],d),c=[0,ao(a,b),e];else
 var
 c=a;return c}function
-ob(b,i,p,h,c,w,g,e,o){if(g){var
-a=f(i),q=oa(a,d(function(a){return aB(a,w,aV(b))},g)),x=gZ(a,P(a,vH)),r=m(gZ(vI,f(g)),x),s=r?m(f(c),a):r;if(s)var
-j=aP(function(a){return n9(a[1])},e),l=mL(g1,y(function(b){var
+jO(b,i,p,h,e,v,g,c,o){if(g){var
+a=f(i),q=oc(a,d(function(a){return aB(a,v,aO(b))},g)),w=g0(a,P(a,vJ)),r=m(g0(vK,f(g)),w),s=r?m(f(e),a):r;if(s)var
+j=aN(function(a){return fU(a[1])},c),l=mN(g2,x(function(b){var
 a=b[1];return typeof
-a==="number"?0:0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]},j)),u=aP(function(b){var
+a==="number"?0:0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]},j)),u=d(aE,aN(function(a){return n$(a[1])},j)),n=ae(f(l),vI),y=n?n_(l,0,function(f){function
+g(c){var
+d=jK([0,t,0],h,X([0,c[2],0],a));return aV(b,a,aL(aL(q,jM(b,e,c[1])),d))}var
+c=[0,0,t];return ob(an(function(b,g){var
+h=b[1],e=fU(h),m=e?J(n$(h)):e;if(m){var
 a=b[1];if(typeof
-a!=="number"&&1===a[0])return m(a[1],a[2]);return 0},j),v=d(function(e){var
-b=e[2];function
-a(a){return N(aj(aj(a)))}var
-c=a(b[2]);return[0,d(a,b[1]),c]},u),n=ae(f(l),vG),z=n?n8(l,0,function(d){function
-f(d){var
-e=jJ([0,t,0],h,X([0,d[2],0],a));return aU(b,a,aL(aL(q,jL(b,c,d[1])),e))}var
-e=[0,0,t];return n$(an(function(f,e){var
-a=f[1];if(typeof
 a==="number")var
-b=0;else
+c=1;else
 if(0===a[0])var
-b=cY(a[1],d);else
+c=cY(a[1],f);else
 var
-c=cY(a[1],d),b=c?cY(a[2],d):c;return b?n_(f[2],e):e},e,j),v,f)}):n,k=z;else
+k=cY(a[2],f),c=cp(cY(a[1],f),k);if(c)var
+i=b[2];else
+var
+j=b[2],l=N(j[2]),i=[0,d(N,j[1]),l];return oa(i,g)}return g},c,j),u,g)}):n,k=y;else
 var
 k=s;if(k){var
-A=aL(o,d(function(a){return d(N,a)},q));return hv(b,i,p,h,c,d(aH,aP(function(a){return L(n9(a[1]))},e)),A)}return k}return hv(b,i,p,h,c,d(aH,e),o)}function
-oc(a,e,c,b){if(a){var
-f=[0,b[2],b[1]],h=k(function(a){var
-b=R(t);return n6(q(c,a[2],b))},f)?0:bz(0,e),i=bp(e),j=oc(a[2],i,[0,c],b),l=a[1];return g(d(function(a){return h},l),j)}return a}function
-jN(d,c,b){var
-a=q(b,d,vK);return 2<=a[2]?0:cY(a[1],c)}function
-od(a){if(a)var
+z=aL(o,d(function(a){return d(N,a)},q));return hw(b,i,p,h,e,d(aE,aN(function(a){return J(fU(a[1]))},c)),z)}return k}return aN(function(a){return fU(a[1])},c)?0:hw(b,i,p,h,e,d(aE,c),o)}function
+od(c,a,d,b){if(a){var
+g=od(c,a[2],[0,d],b);if(c)var
+h=[0,b[2],b[1]],e=k(function(a){var
+b=R(t);return n8(q(d,a[2],b))},h)?0:a[1];else
+var
+e=c;var
+f=[0,e,g]}else
+var
+f=a;return f}function
+oe(b,a){return fU(b)?ao(vN,a):a}function
+jP(e,d,c){var
+a=q(c,e,vO),b=2<=a[2]?1:0;return b?cY(a[1],d):b}function
+of(a){if(a)var
 b=a[1],c=[0,b[1],[0,b[2],0]];else
 var
 c=a;return c}function
-jO(f,e,c,b,a){var
+jQ(f,e,c,b,a){var
 g=d(R,c);return dk(0,b_(f,cX(0,a),g),b,e)}function
 ad(a){if(a){var
 b=a[1];if(b)var
 c=ad(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return vL}function
-fU(b,a){if(a){var
+d=b;return d}return vP}function
+fV(b,a){if(a){var
 h=a[1],n=h[1],c=ad(d(function(a){return q(a,b,0)},n));if(c){var
 f=q(h[2],b,0);if(f){var
-i=f[1],g=fU(b,a[2]);if(g)var
+i=f[1],g=fV(b,a[2]);if(g)var
 j=I(e,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
@@ -2367,21 +2375,21 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return vM}function
+m=c;return m}return vQ}function
 c0(d,c,b){var
-a=fU(d,c);return a?h(b,a[1]):a}function
+a=fV(d,c);return a?h(b,a[1]):a}function
 c1(a,b){return k(function(c){var
 a=q(c,b,0),d=a?1:a;return d},a)}function
-hw(b,a){return b?hm(a,b[1]):a}function
-jP(b,a){return b?nr(a,b[1]):a}function
-jQ(h,g,b,f){var
+hx(b,a){return b?hn(a,b[1]):a}function
+jR(b,a){return b?nt(a,b[1]):a}function
+jS(h,g,b,f){var
 a=q(f,h,0);if(a){var
 c=a[1];if(b){var
-i=nr(c,b[1]),d=a4(g);return k(function(a){return D(e,aq(a,i)[1])},d)}return D(e,c[2][1])}return a}function
-jR(f,e,b){function
-c(b){return aB(b,e,J(f,a))}if(b){var
+i=nt(c,b[1]),d=a4(g);return k(function(a){return D(e,aq(a,i)[1])},d)}return D(e,c[2][1])}return a}function
+jT(f,e,b){function
+c(b){return aB(b,e,K(f,a))}if(b){var
 g=d(c,b[2]);return[0,c(b[1]),t,g]}return R(t)}function
-hx(b,a){var
+hy(b,a){var
 c=q(a[1],b,0);if(c){var
 d=q(a[2],b,0);if(d)var
 e=q(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
@@ -2390,55 +2398,55 @@ f=d;var
 g=f}else
 var
 g=c;return g}function
-fV(b,a){return ad(d(function(a){return q(a,b,0)},a))}function
+fW(b,a){return ad(d(function(a){return q(a,b,0)},a))}function
 eX(c,l,ab,E,i,h,j,g,b){switch(g[0]){case
 0:var
 u=g[1];if(typeof
 b!=="number")switch(b[0]){case
 0:var
 ac=c1(E,i);if(ac){var
-aI=b[2],aJ=b[1],aK=hw(j,R(u));return c0(i,l,function(a){return fM(c,h,aK,aJ,aI,a)})}return ac;case
+aI=b[2],aJ=b[1],aK=hx(j,R(u));return c0(i,l,function(a){return fM(c,h,aK,aJ,aI,a)})}return ac;case
 1:var
 ae=c1(E,i);if(ae){var
-aM=b[2],aN=b[1],aO=hw(j,R(u));return c0(i,ab,function(a){return fM(c,h,aO,aN,aM,a)})}return ae;case
+aM=b[2],aN=b[1],aO=hx(j,R(u));return c0(i,ab,function(a){return fM(c,h,aO,aN,aM,a)})}return ae;case
 2:var
 af=c1(E,i);if(af){var
 ag=H(u[1],e),ah=ag?H(u[2],e):ag;if(ah){var
-aP=b[2],aQ=b[1];return c0(i,l,function(a){return nq(c,h,j,aQ,aP,a)})}var
+aP=b[2],aQ=b[1];return c0(i,l,function(a){return ns(c,h,j,aQ,aP,a)})}var
 ai=ah}else
 var
 ai=af;return ai}return 0;case
 1:var
 aj=g[1];if(typeof
 b==="number"){if(1===b){var
-aR=jP(j,R(aj));return c0(i,ab,function(a){return jB(c,h,aR,a)})}if(!b){var
-aS=jP(j,R(aj));return c0(i,l,function(a){return jB(c,h,aS,a)})}}return 0;case
+aR=jR(j,R(aj));return c0(i,ab,function(a){return jC(c,h,aR,a)})}if(!b){var
+aS=jR(j,R(aj));return c0(i,l,function(a){return jC(c,h,aS,a)})}}return 0;case
 2:if(typeof
 b!=="number"&&3===b[0]){var
-ak=b[1],n=jR(c,ak,b[3]),al=g[1],aT=b[2];return c0(i,l,function(e){var
-a=hl(h,n),b=a?fM(c,h,hw(j,n),ak,aT,e):a;if(b){var
-f=n[3],g=d(function(a){return r(c,al,a)},f),i=n[2];return jB(c,h,jP(j,[0,r(c,al,n[1]),i,g]),e)}return b})}return 0;case
+ak=b[1],n=jT(c,ak,b[3]),al=g[1],aT=b[2];return c0(i,l,function(e){var
+a=hm(h,n),b=a?fM(c,h,hx(j,n),ak,aT,e):a;if(b){var
+f=n[3],g=d(function(a){return r(c,al,a)},f),i=n[2];return jC(c,h,jR(j,[0,r(c,al,n[1]),i,g]),e)}return b})}return 0;case
 3:if(typeof
-b==="number"&&!b)return jQ(i,h,j,g[1]);return 0;case
+b==="number"&&!b)return jS(i,h,j,g[1]);return 0;case
 4:if(typeof
 b!=="number"&&0===b[0]){var
-aV=b[2],aW=b[1],aY=hw(j,R(g[2])),aZ=function(a){return fM(c,h,aY,aW,aV,a)};return c0(i,g[1],aZ)}return 0;case
+aU=b[2],aW=b[1],aY=hx(j,R(g[2])),aZ=function(a){return fM(c,h,aY,aW,aU,a)};return c0(i,g[1],aZ)}return 0;case
 5:if(typeof
 b==="number"&&!(3<=b))switch(b){case
-0:return jQ(i,h,j,g[1]);case
-2:return jQ(i,h,j,g[2])}return 0;case
+0:return jS(i,h,j,g[1]);case
+2:return jS(i,h,j,g[2])}return 0;case
 6:if(typeof
 b!=="number"&&8===b[0]){var
-F=hx(i,g[1]);if(F){var
-I=hx(i,g[2]);if(I){var
-K=hx(i,g[3]);if(K){var
-L=hx(i,g[4]);if(L){var
-am=L[1],ao=K[1],ap=I[1],ar=F[1],o=b[2],v=g[5],a0=b[1];if(o){var
+F=hy(i,g[1]);if(F){var
+I=hy(i,g[2]);if(I){var
+J=hy(i,g[3]);if(J){var
+L=hy(i,g[4]);if(L){var
+am=L[1],ao=J[1],ap=I[1],ar=F[1],o=b[2],v=g[5],a0=b[1];if(o){var
 p=o[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-aH=[0,o[1],p[1],q[1]],s=nw(function(f){function
-g(b){return aB(b,a0,J(c,a))}if(f){var
-b=d(g,f[2]),e=g(f[1]),h=hf(b),i=G(e[2],h),j=hf(b);return[0,e,[0,aX(e[1],j),i],b]}return R(t)},aH),P=k(function(a){return m(f(a),[0,h])},o),S=P?ho(c,h,j,v,s,ar,ao):P,T=S?ho(c,h,j,v,s,ar,am):S,U=T?ho(c,h,j,v,s,ap,ao):T;if(U)return ho(c,h,j,v,s,ap,am);var
+aH=[0,o[1],p[1],q[1]],s=ny(function(f){function
+g(b){return aB(b,a0,K(c,a))}if(f){var
+b=d(g,f[2]),e=g(f[1]),h=hg(b),i=G(e[2],h),j=hg(b);return[0,e,[0,aX(e[1],j),i],b]}return R(t)},aH),P=k(function(a){return m(f(a),[0,h])},o),S=P?hp(c,h,j,v,s,ar,ao):P,T=S?hp(c,h,j,v,s,ar,am):S,U=T?hp(c,h,j,v,s,ap,ao):T;if(U)return hp(c,h,j,v,s,ap,am);var
 V=U}else
 var
 V=q;var
@@ -2450,7 +2458,7 @@ var
 X=o;return X}var
 as=L}else
 var
-as=K;var
+as=J;var
 at=as}else
 var
 at=I;var
@@ -2463,36 +2471,36 @@ av=b[2],aw=b[1],a1=g[2],a2=g[1];return c0(i,l,function(e){var
 b=m(f(e),h),d=b?m(f(av),h):b;if(d){var
 g=function(b){if(b){var
 d=b[2],e=m(f(d),h);if(e){var
-i=dZ(aw,d0(aw,av,J(c,a),d));return aU(c,h,aL(hp(c,a2,a1,b[1][2],d),i))}var
+i=d0(aw,d1(aw,av,K(c,a),d));return aV(c,h,aL(hq(c,a2,a1,b[1][2],d),i))}var
 g=e}else
 var
-g=b;return g},i=j?j[1]:R(t);return jz(h,jA(i,e),g)}return d})}return 0;case
+g=b;return g},i=j?j[1]:R(t);return jA(h,jB(i,e),g)}return d})}return 0;case
 8:if(typeof
 b==="number"&&5<=b){var
-a3=g[3],a4=g[2],a5=function(a){return nq(c,h,j,a4,a3,a)};return c0(i,g[1],a5)}return 0;case
+a3=g[3],a4=g[2],a5=function(a){return ns(c,h,j,a4,a3,a)};return c0(i,g[1],a5)}return 0;case
 11:if(typeof
 b==="number"&&!b){var
-M=fV(i,g[1]);if(M){var
-a6=g[2],N=ad(d(function(a){return fV(i,a)},a6));if(N){var
-a7=od(g[5]),O=fV(i,[0,g[3],[0,g[4],a7]]);if(O){var
-y=O[1];if(y){var
-z=y[2];if(z){var
-A=z[2],ax=fV(i,g[6]);if(ax){if(A)var
+M=fW(i,g[1]);if(M){var
+a6=g[2],N=ad(d(function(a){return fW(i,a)},a6));if(N){var
+a7=of(g[5]),O=fW(i,[0,g[3],[0,g[4],a7]]);if(O){var
+x=O[1];if(x){var
+z=x[2];if(z){var
+A=z[2],ax=fW(i,g[6]);if(ax){if(A)var
 C=A[2],a8=C?C[2]?0:[0,[0,A[1][2],C[1]]]:C,D=a8;else
 var
 D=A;var
-ay=z[1][2],az=y[1][2],aA=N[1],a9=M[1],Y=nW(c,h,j,aA,az,ay,function(d){return[0,eR(c,an(function(b,a){return w(Q(c,aq(d,b)),a)},t,a9))]});if(Y)var
+ay=z[1][2],az=x[1][2],aA=N[1],a9=M[1],Y=nY(c,h,j,aA,az,ay,function(d){return[0,eR(c,an(function(b,a){return w(Q(c,aq(d,b)),a)},t,a9))]});if(Y)var
 Z=Y;else{if(D){var
-_=D[1],$=_[2],aa=_[1];return nW(c,h,j,aA,az,ay,function(f){var
-b=br($[1]),a=cq(c,B(aa,Q(c,b)));if(a){var
-d=bP(c,a[1]),e=B(aa,r(c,b,aq(f,$)));return x(function(a){return r(c,e,a)},d)}return a})}var
+_=D[1],$=_[2],aa=_[1];return nY(c,h,j,aA,az,ay,function(f){var
+b=bq($[1]),a=cr(c,B(aa,Q(c,b)));if(a){var
+d=bP(c,a[1]),e=B(aa,r(c,b,aq(f,$)));return y(function(a){return r(c,e,a)},d)}return a})}var
 Z=D}return Z}var
 aC=ax}else
 var
 aC=z;var
 aD=aC}else
 var
-aD=y;var
+aD=x;var
 aE=aD}else
 var
 aE=O;var
@@ -2502,37 +2510,37 @@ aF=N;var
 aG=aF}else
 var
 aG=M;return aG}return 0;default:return 0}}function
-oe(c,a){var
+og(c,a){var
 e=q(a[1],c,0);if(e)var
 g=a[2][2],b=ad(d(function(a){var
-b=q(a[2],c,0);return x(function(b){return[0,a[1],b]},b)},g)),h=b?[0,[0,a[2][1],b[1]]]:b,f=h;else
+b=q(a[2],c,0);return y(function(b){return[0,a[1],b]},b)},g)),h=b?[0,[0,a[2][1],b[1]]]:b,f=h;else
 var
 f=e;return f}function
-of(b,a){return g(b,cQ(a[1]))}function
-og(b,C,A,v,u,ax,o,n,s,p,l){switch(p[0]){case
+oh(b,a){return g(b,cQ(a[1]))}function
+oi(b,C,A,v,u,ax,o,n,s,p,l){switch(p[0]){case
 9:var
 a9=p[2],a_=p[1];if(typeof
 l!=="number"&&9===l[0]){var
 ay=l[2],M=l[1],a$=l[3];if(0<a1(l[4]))return eX(b,A,v,u,o,f(n),s,p,l);var
-ba=bD(g(u,y(function(a){return g(a[1],[0,a[2],0])},v)),C),aT=d(R,ax),ab=dk(0,b_(b,hq(0,n,a_),aT),ba,C),az=m(f(n),vN),aA=az?c1(u,ab):az;if(aA){var
-O=fU(ab,v);if(O){var
-P=fU(o,v);if(P){var
-S=ad(d(function(a){return oe(o,a)},a9));if(S){var
-T=nz(O[1]);if(T){var
+ba=bC(g(u,x(function(a){return g(a[1],[0,a[2],0])},v)),C),aT=d(R,ax),ab=dk(0,b_(b,hr(0,n,a_),aT),ba,C),az=m(f(n),vR),aA=az?c1(u,ab):az;if(aA){var
+O=fV(ab,v);if(O){var
+P=fV(o,v);if(P){var
+S=ad(d(function(a){return og(o,a)},a9));if(S){var
+T=nB(O[1]);if(T){var
 aD=P[1],bb=S[1],bc=T[1],ac=eR(b,an(function(f,i){function
 a(b,d){var
-a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return bQ(q(d,c[3],t))}function
+a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return bR(q(d,c[3],t))}function
 c(a){var
-b=h(a,vh),c=by(h(a,vi),b);return by(h(a,0),c)}var
+b=h(a,vj),c=bx(h(a,vk),b);return bx(h(a,0),c)}var
 d=c(function(b){var
-c=a(vj,b),d=a(vk,b);return G(G(a(0,b),d),c)}),g=[0,d,d],e=c(function(b){var
-c=a(b,vl),d=a(b,vm);return G(G(a(b,0),d),c)});return w(i,Q(b,eR(b,r(b,[0,e,e],g))))},t,bc)),D=aB(a$,M,J(b,a)),af=I(e,B(D,ac)[1]),ag=af?m(f(ay),vs):af,ah=ag?m(f(aD),vt):ag;if(ah){var
+c=a(vl,b),d=a(vm,b);return G(G(a(0,b),d),c)}),g=[0,d,d],e=c(function(b){var
+c=a(b,vn),d=a(b,vo);return G(G(a(b,0),d),c)});return w(i,Q(b,eR(b,r(b,[0,e,e],g))))},t,bc)),D=aB(a$,M,K(b,a)),af=I(e,B(D,ac)[1]),ag=af?m(f(ay),vu):af,ah=ag?m(f(aD),vv):ag;if(ah){var
 E=bP(b,D);if(E){var
-aV=aj(r(b,ac,E[1])),aW=B(J(b,a),aV),aX=a4(vu);return k(function(i){var
-g=d(function(a){return nA(b,i,a[1],a[2])},bb),p=h(aC(function(a){return aq(i,a)}),aD),F=s?aq(i,s[1]):t,O=Q(b,aW),q=Q(b,D),o=dZ(M,d0(M,ay,J(b,a),p)),c=aL(X([0,N(F),0],vn),o);if(g){var
+aU=ak(r(b,ac,E[1])),aW=B(K(b,a),aU),aX=a4(vw);return k(function(i){var
+g=d(function(a){return nC(b,i,a[1],a[2])},bb),p=h(aC(function(a){return aq(i,a)}),aD),F=s?aq(i,s[1]):t,O=Q(b,aW),q=Q(b,D),o=d0(M,d1(M,ay,K(b,a),p)),c=aL(X([0,N(F),0],vp),o);if(g){var
 e=g[2];if(e){var
 f=e[2];if(f){if(f[2])return 0;var
-C=e[1],E=g[1],I=f[1],j=aU(b,vp,aL(X([0,N(q),0],vo),c));if(j)return k(function(D){var
+C=e[1],E=g[1],I=f[1],j=aV(b,vr,aL(X([0,N(q),0],vq),c));if(j)return k(function(D){var
 J=B(O,F),K=D[2]?C:N(C),L=D[1]?E:N(E),o=0;if(c){var
 a=c[1],l=0;if(a){var
 d=a[2],m=0;if(d){var
@@ -2572,7 +2580,7 @@ var
 z=a;if(!l){var
 A=z;o=1}}else{var
 A=c;o=1}if(o)var
-k=A;return aU(b,vr,k)},vq);var
+k=A;return aV(b,vt,k)},vs);var
 l=j}else
 var
 l=f;var
@@ -2585,10 +2593,10 @@ n=g;return n},aX)}var
 ai=E}else
 var
 ai=ah;return ai}var
-aF=T}else
+aE=T}else
 var
-aF=S;var
-aG=aF}else
+aE=S;var
+aG=aE}else
 var
 aG=P;var
 aH=aG}else
@@ -2600,11 +2608,11 @@ aI=aA;return aI}return eX(b,A,v,u,o,f(n),s,p,l);case
 10:var
 i=p[1];if(typeof
 l!=="number"&&9===l[0]){var
-j=f(n),a3=bD(of(u,i),C),a5=d(R,ax),a6=i[7],a7=i[6],a8=f(n),aw=dk(0,b_(b,nI(i[8],a8,n,a7,a6),a5),a3,C),aJ=ae(i[8],j),aK=aJ?m(f(i[1]),j):aJ;if(aK)var
+j=f(n),a3=bC(oh(u,i),C),a5=d(R,ax),a6=i[7],a7=i[6],a8=f(n),aw=dk(0,b_(b,nK(i[8],a8,n,a7,a6),a5),a3,C),aJ=ae(i[8],j),aK=aJ?m(f(i[1]),j):aJ;if(aK)var
 bd=i[1],U=k(function(a){return m(f(a),j)},bd);else
 var
 U=aK;if(U)var
-be=of(u,i),V=k(function(b){var
+be=oh(u,i),V=k(function(b){var
 a=q(b,aw,0),c=a?1:a;return c},be);else
 var
 V=U;if(V)var
@@ -2612,31 +2620,31 @@ bf=i[3],W=k(function(b){var
 a=q(b,o,0),c=a?1:a;return c},bf);else
 var
 W=V;if(W){var
-bg=i[1],Y=ad(d(function(a){return fV(aw,a)},bg));if(Y){var
-Z=fU(o,i[2]);if(Z){var
-bh=i[4],_=ad(d(function(a){return oe(o,a)},bh));if(_){var
-$=l[4],aM=l[2],aa=l[1],aN=_[1],aO=Z[1],aP=Y[1],x=i[8],bi=l[3],ak=nC(b,j,x,aP),F=aB(bi,aa,J(b,a)),al=mF($,e);if(al)var
+bg=i[1],Y=ad(d(function(a){return fW(aw,a)},bg));if(Y){var
+Z=fV(o,i[2]);if(Z){var
+bh=i[4],_=ad(d(function(a){return og(o,a)},bh));if(_){var
+$=l[4],aM=l[2],aa=l[1],aN=_[1],aO=Z[1],aP=Y[1],y=i[8],bi=l[3],aj=nE(b,j,y,aP),F=aB(bi,aa,K(b,a)),al=mH($,e);if(al)var
 H=al;else
 var
-au=mG($,c(2,c(2,c(2,c(2,a))))),av=au?aE(0,x):au,H=av?aE(x,j):av;var
-am=H?I(e,B(F,ak)[1]):H,ao=am?m(f(aM),j):am,ap=ao?m(f(aO),j):ao;if(ap){var
-ar=L(i[5]);if(ar)var
+au=mI($,c(2,c(2,c(2,c(2,a))))),av=au?aF(0,y):au,H=av?aF(y,j):av;var
+am=H?I(e,B(F,aj)[1]):H,ao=am?m(f(aM),j):am,ap=ao?m(f(aO),j):ao;if(ap){var
+ar=J(i[5]);if(ar)var
 z=ar;else
 var
 at=k(function(c){var
 a=an(function(c,b){var
-a=bQ(c[2]);return w([0,a,a],b)},t,c);return nJ(b,i[6],a)},aP),z=at?k(function(c){var
+a=bR(c[2]);return w([0,a,a],b)},t,c);return nL(b,i[6],a)},aP),z=at?k(function(c){var
 d=c[2],a=an(function(a,d){var
-c=bQ(a[2][2]);return w(r(b,a[1],[0,c,c]),d)},t,d);return nJ(b,i[6],a)},aN):at}else
+c=bR(a[2][2]);return w(r(b,a[1],[0,c,c]),d)},t,d);return nL(b,i[6],a)},aN):at}else
 var
 z=ap;if(z){var
-K=bP(b,F);if(K){var
-aZ=aj(r(b,ak,K[1])),a0=B(J(b,a),aZ),a2=a4(j);return k(function(e){var
-r=d(function(a){return nA(b,e,a[1],a[2])},aN),y=h(aC(function(a){return aq(e,a)}),aO),u=s?aq(e,s[1]):t,z=Q(b,a0),A=Q(b,F),C=nD(j,x,i[9],$),l=d(function(a){var
-b=a[2];return[0,nE(C,a[1]),b]},y),v=dZ(aa,d0(aa,aM,J(b,a),l)),c=aL(X([0,N(u),0],j),v),n=m(f(l),j),o=n?m(f(r),j):n,p=o?nG(j,c):o,q=p?aU(b,j,aL(X([0,N(A),0],j),c)):p;if(q){var
+L=bP(b,F);if(L){var
+aZ=ak(r(b,aj,L[1])),a0=B(K(b,a),aZ),a2=a4(j);return k(function(e){var
+r=d(function(a){return nC(b,e,a[1],a[2])},aN),x=h(aC(function(a){return aq(e,a)}),aO),u=s?aq(e,s[1]):t,z=Q(b,a0),A=Q(b,F),C=nF(j,y,i[9],$),l=d(function(a){var
+b=a[2];return[0,nG(C,a[1]),b]},x),v=d0(aa,d1(aa,aM,K(b,a),l)),c=aL(X([0,N(u),0],j),v),n=m(f(l),j),o=n?m(f(r),j):n,p=o?nI(j,c):o,q=p?aV(b,j,aL(X([0,N(A),0],j),c)):p;if(q){var
 w=a4(aY(j));return k(function(a){var
-d=B(z,u);return aU(b,[0,j],nF(c,nH(g(a,vv),r),d))},w)}return q},a2)}var
-as=K}else
+d=B(z,u);return aV(b,[0,j],nH(c,nJ(g(a,vx),r),d))},w)}return q},a2)}var
+as=L}else
 var
 as=z;return as}var
 aQ=_}else
@@ -2648,7 +2656,7 @@ aR=Y;var
 aS=aR}else
 var
 aS=W;return aS}return eX(b,A,v,u,o,f(n),s,p,l);default:return eX(b,A,v,u,o,f(n),s,p,l)}}function
-hy(c){var
+hz(c){var
 a=c;for(;;){var
 b=0;if(typeof
 a==="number"){if(1!==a)b=1}else
@@ -2656,58 +2664,58 @@ switch(a[0]){case
 11:var
 a=a[3];continue;case
 12:var
-d=a[1];return k(function(a){return hy(a[2])},d);case
+d=a[1];return k(function(a){return hz(a[2])},d);case
 1:break;case
 5:case
 10:var
 a=a[1];continue;default:b=1}return b?0:1}}function
-hz(a){if(typeof
+hA(a){if(typeof
 a==="number"){if(1===a)return 0}else
 switch(a[0]){case
 1:return[0,a[1],a[2]];case
 5:var
-b=a[3],c=a[2];return[5,hz(a[1]),c,b];case
+b=a[3],c=a[2];return[5,hA(a[1]),c,b];case
 10:var
-d=a[4],e=a[3],f=a[2];return[10,hz(a[1]),f,e,d];case
+d=a[4],e=a[3],f=a[2];return[10,hA(a[1]),f,e,d];case
 11:var
-g=hz(a[3]);return[11,a[1],a[2],g]}return a}function
-bJ(a){return y(function(a){return g(a[1],[0,a[2],0])},a)}function
+g=hA(a[3]);return[11,a[1],a[2],g]}return a}function
+bJ(a){return x(function(a){return g(a[1],[0,a[2],0])},a)}function
 eY(i,c,h,a,f){var
-j=hy(f)?c:i,e=bJ(j);switch(a[0]){case
+j=hz(f)?c:i,e=bJ(j);switch(a[0]){case
 0:return g(h,e);case
 3:return[0,a[1],0];case
 5:return[0,a[1],[0,a[2],0]];case
 6:var
-k=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return y(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},k);case
+k=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return x(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},k);case
 9:var
-l=a[2],m=y(function(a){var
-b=d(aH,a[2][2]);return[0,a[1],b]},l);return g(bJ(c),m);case
+l=a[2],m=x(function(a){var
+b=d(aE,a[2][2]);return[0,a[1],b]},l);return g(bJ(c),m);case
 10:var
-b=a[1],n=b[4],o=y(function(a){var
-b=d(aH,a[2][2]);return[0,a[1],b]},n),p=g(b[3],o);return g(bJ(b[2]),p);case
+b=a[1],n=b[4],o=x(function(a){var
+b=d(aE,a[2][2]);return[0,a[1],b]},n),p=g(b[3],o);return g(bJ(b[2]),p);case
 11:var
-q=a[6],r=g(od(a[5]),q),s=[0,a[3],[0,a[4],r]],t=g(cQ(a[2]),s);return g(a[1],t);case
+q=a[6],r=g(of(a[5]),q),s=[0,a[3],[0,a[4],r]],t=g(cQ(a[2]),s);return g(a[1],t);case
 4:case
 8:return bJ(a[1]);default:return e}}function
 d3(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=L(ag(function(b){return function(a){return m(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=J(ag(function(b){return function(a){return m(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-fW(a,i,h,n,s,e,b,c){var
+fX(a,i,h,n,s,e,b,c){var
 j=d(R,fS(b,0,h));if(c){var
-k=d(function(a){return cY(a[1],c)?a[1]:f(h)},b),u=dk(vR,function(b){return jC(a,s,j,k,b)},e,i),t=ht(b,c),aJ=d(ao,b),aL=d(R,h),v=dk(vS,function(b){var
-g=jC(a,s,aL,aJ,b9(ao,b)),f=0;switch(b[0]){case
+k=d(function(a){return cY(a[1],c)?a[1]:f(h)},b),u=dk(vV,function(b){return jD(a,s,j,k,b)},e,i),t=hu(b,c),aJ=d(ap,b),aL=d(R,h),v=dk(vW,function(b){var
+g=jD(a,s,aL,aJ,b9(ap,b)),f=0;switch(b[0]){case
 3:var
-af=function(b,a){return bu},m=af,h=b[2],l=b[1];f=1;break;case
+af=function(b,a){return bt},m=af,h=b[2],l=b[1];f=1;break;case
 4:var
-aj=function(b,a){return cw},m=aj,h=b[2],l=b[1];f=1;break;case
+aj=function(b,a){return cx},m=aj,h=b[2],l=b[1];f=1;break;case
 5:var
 ak=function(b,a){return eT},u=ak,i=b[1];f=2;break;case
 6:var
 v=b[2],w=b[1],x=w[1][1],ab=0;if(x){var
-y=v[1][1],ap=x[1];if(y){var
-aq=y[1],ar=w[1],N=function(a){return bT(ar,a)},as=v[1],O=function(a){return bT(as,a)},m=function(c,b,e,d){var
-f=bt(a,ap,d),g=bu(bt(a,aq,e),f),h=O(c),i=cZ(a,N(b),h),j=O(b);return bu(bu(cZ(a,N(c),j),i),g)},h=v,l=w;f=1;ab=1}else
+y=v[1][1],ao=x[1];if(y){var
+aq=y[1],ar=w[1],N=function(a){return bU(ar,a)},as=v[1],O=function(a){return bU(as,a)},m=function(c,b,e,d){var
+f=bs(a,ao,d),g=bt(bs(a,aq,e),f),h=O(c),i=cZ(a,N(b),h),j=O(b);return bt(bt(cZ(a,N(c),j),i),g)},h=v,l=w;f=1;ab=1}else
 var
 P=y}else
 var
@@ -2716,8 +2724,8 @@ e=P;break;case
 7:var
 z=b[2],A=g[1],ac=0;if(A){var
 B=z[1][1],at=A[1];if(B){var
-au=B[1],Q=function(a){return bT(g,a)},av=z[1],R=function(a){return bT(av,a)},aw=function(c,b,e,d){var
-f=R(b),g=cZ(a,Q(c),f),h=bt(a,at,d),i=R(c);return d1(a,au,cw(cw(e,bu(cZ(a,Q(b),i),h)),g))},m=aw,h=z,l=b[1];f=1;ac=1}else
+au=B[1],Q=function(a){return bU(g,a)},av=z[1],R=function(a){return bU(av,a)},aw=function(c,b,e,d){var
+f=R(b),g=cZ(a,Q(c),f),h=bs(a,at,d),i=R(c);return d2(a,au,cx(cx(e,bt(cZ(a,Q(b),i),h)),g))},m=aw,h=z,l=b[1];f=1;ac=1}else
 var
 S=B}else
 var
@@ -2726,23 +2734,23 @@ e=S;break;case
 8:var
 C=b[1],D=C[1][1];if(D){var
 ax=D[1],u=function(d,c,b){var
-e=bt(a,ax,b),f=bu(nS(a,C[1],d,c),e);return bt(a,dt(a),f)},i=C;f=2}else
+e=bs(a,ax,b),f=bt(nU(a,C[1],d,c),e);return bs(a,dt(a),f)},i=C;f=2}else
 var
 e=D;break;case
 9:var
 E=g[1];if(E){var
 ay=E[1],az=aK(a,dt(a),ay),aA=function(d,c,b){var
-e=nS(a,g,d,c);return d1(a,az,cw(b,bt(a,dt(a),e)))},u=aA,i=b[1];f=2}else
+e=nU(a,g,d,c);return d2(a,az,cx(b,bs(a,dt(a),e)))},u=aA,i=b[1];f=2}else
 var
 e=E;break;case
 10:var
 F=b[4],G=b[3],H=b[2],T=b[1],I=H[1][1],M=0;if(I){var
 n=I[1],J=G[1][1],ad=0;if(J){var
 o=J[1],K=F[1][1],ae=0;if(K){var
-L=jv(a,n,o,K[1]);if(L){var
-U=L[1],j=U[2],k=U[1],c=function(b,c){return bt(a,b,c)},p=dt(a),aB=H[1],q=function(a){return bT(aB,a)},aC=G[1],r=function(a){return bT(aC,a)},aD=F[1],V=bg(n,k),W=bg(o,j),aE=aK(a,n,j),X=aK(a,p,bg(aK(a,o,k),aE)),Y=function(a){var
-d=bT(aD,a),b=c(W,r(a));return cw(c(p,bu(c(V,q(a)),b)),d)},Z=function(d,b){return d1(a,X,c(d,Y(b)))},aF=dU(j),aG=F[2],aH=G[2],aI=H[2],e=hs(function(d,b,l,i,h){var
-f=Z(aF,b),e=Z(k,b),m=c(W,i),s=r(d),t=bu(cZ(a,cw(r(b),e),s),m),u=c(V,l),v=q(d),w=cw(c(p,bu(bu(cZ(a,cw(q(b),f),v),u),t)),h),x=c(n,e),y=bu(c(j,q(b)),x),z=c(o,f),A=c(p,cw(bu(c(k,r(b)),z),y)),B=cZ(a,bT(g,d),A),C=T?k:dU(j),D=c(C,w),E=Y(d),F=T?f:eT(e);return d1(a,X,cw(bu(cZ(a,F,E),D),B))},t,aI,aH,aG);ad=1;ae=1}else
+L=jw(a,n,o,K[1]);if(L){var
+U=L[1],j=U[2],k=U[1],c=function(b,c){return bs(a,b,c)},p=dt(a),aB=H[1],q=function(a){return bU(aB,a)},aC=G[1],r=function(a){return bU(aC,a)},aD=F[1],V=bg(n,k),W=bg(o,j),aE=aK(a,n,j),X=aK(a,p,bg(aK(a,o,k),aE)),Y=function(a){var
+d=bU(aD,a),b=c(W,r(a));return cx(c(p,bt(c(V,q(a)),b)),d)},Z=function(d,b){return d2(a,X,c(d,Y(b)))},aF=dV(j),aG=F[2],aH=G[2],aI=H[2],e=ht(function(d,b,l,i,h){var
+f=Z(aF,b),e=Z(k,b),m=c(W,i),s=r(d),t=bt(cZ(a,cx(r(b),e),s),m),u=c(V,l),v=q(d),w=cx(c(p,bt(bt(cZ(a,cx(q(b),f),v),u),t)),h),x=c(n,e),y=bt(c(j,q(b)),x),z=c(o,f),A=c(p,cx(bt(c(k,r(b)),z),y)),B=cZ(a,bU(g,d),A),C=T?k:dV(j),D=c(C,w),E=Y(d),F=T?f:eT(e);return d2(a,X,cx(bt(cZ(a,F,E),D),B))},t,aI,aH,aG);ad=1;ae=1}else
 var
 _=L}else
 var
@@ -2755,29 +2763,29 @@ aa=I;M=1}if(M)var
 e=aa;break;default:var
 e=d(function(a){return 0},t)}switch(f){case
 1:var
-ag=h[2],ah=h[2],ai=l[2],e=hs(function(d,c,b,a,e){return gD(m,d,c,b,a)},t,ai,ah,ag);break;case
+ag=h[2],ah=h[2],ai=l[2],e=ht(function(d,c,b,a,e){return gE(m,d,c,b,a)},t,ai,ah,ag);break;case
 2:var
-al=i[2],am=i[2],an=i[2],e=hs(function(c,b,a,e,d){return fm(u,c,b,a)},t,an,am,al);break}return[0,g,e]},e,i);return function(h){var
-i=q(h,u,vP),j=q(h,n,0);if(j){var
+al=i[2],am=i[2],an=i[2],e=ht(function(c,b,a,e,d){return fm(u,c,b,a)},t,an,am,al);break}return[0,g,e]},e,i);return function(h){var
+i=q(h,u,vT),j=q(h,n,0);if(j){var
 e=i[1];if(e)var
-k=q(h,v,vQ),o=ax(0,f(ht(b,c))),p=d(function(a){return q(a,k[2],nR)},o),r=ax(0,f(b)),a=nV(g(d(function(a){var
-d=cY(nT(b,a),c)?i:k[1];return bT(d,a)},r),p)),s=a?[0,[0,e[1],a[1]]]:a,l=s;else
+k=q(h,v,vU),o=ax(0,f(hu(b,c))),p=d(function(a){return q(a,k[2],nT)},o),r=ax(0,f(b)),a=nX(g(d(function(a){var
+d=cY(nV(b,a),c)?i:k[1];return bU(d,a)},r),p)),s=a?[0,[0,e[1],a[1]]]:a,l=s;else
 var
 l=e;var
 m=l}else
 var
 m=j;return m}}var
-l=dk(0,b_(a,s,j),e,i),m=d(ao,b),o=d(R,h),p=dk(vT,function(b){return jC(a,s,o,m,b)},e,i);return function(d){var
+l=dk(0,b_(a,s,j),e,i),m=d(ap,b),o=d(R,h),p=dk(vX,function(b){return jD(a,s,o,m,b)},e,i);return function(d){var
 e=q(d,n,0);if(e){var
 a=q(d,l,0);if(a)var
-c=nQ(0,b,q(d,p,vO)),h=c?[0,[0,a[1],c[1]]]:c,f=h;else
+c=nS(0,b,q(d,p,vS)),h=c?[0,[0,a[1],c[1]]]:c,f=h;else
 var
 f=a;var
 g=f}else
 var
 g=e;return g}}function
-fX(a,c){var
-b=k(function(a){return cY(a,d(ao,c))},a);return b?d3(a):b}function
+fY(a,c){var
+b=k(function(a){return cY(a,d(ap,c))},a);return b?d3(a):b}function
 eZ(j,b,a){if(a){var
 k=a[1],l=k[2],c=ad(d(b,k[1]));if(c){var
 f=h(b,l);if(f){var
@@ -2794,18 +2802,18 @@ var
 p=f;var
 r=p}else
 var
-r=c;return r}return vU}function
-vV(c,T,j,aJ,z,y,q,S,Q,g,b,o,x,a){var
-i=f(S),aK=cX(0,S),aM=bD(eY(j,aJ,z,g,b),T),aN=fT(c,o,x,y),U=fW(c,T,y,q,aK,aM,o,x);function
-A(a){return d(function(a){return J(c,a)},a)}var
-aO=Q?Q[1]:R(t);function
-V(a){return a?aU(c,i,a[1]):a}function
+r=c;return r}return vY}function
+vZ(c,T,j,aJ,z,y,q,S,Q,g,b,o,x,a){var
+i=f(S),aK=cX(0,S),aM=bC(eY(j,aJ,z,g,b),T),aN=fT(c,o,x,y),U=fX(c,T,y,q,aK,aM,o,x);function
+A(a){return d(function(a){return K(c,a)},a)}var
+aP=Q?Q[1]:R(t);function
+V(a){return a?aV(c,i,a[1]):a}function
 s(f,e,d,b,a){var
-g=X([0,N(e),0],i);return V(jE(c,A(f),d,b,a,g))}function
+g=X([0,N(e),0],i);return V(jF(c,A(f),d,b,a,g))}function
 Y(d,b,a){var
-e=X([0,b,0],i);return V(nL(c,A(d),a,e))}var
-aP=d(ao,o),Z=k(function(a){return aE(a,f(y))},aP),_=Z?d3(d(ao,o)):Z;if(_)var
-$=fX(x,o),C=$?k(function(a){return m(f(a),i)},a):$;else
+e=X([0,b,0],i);return V(nN(c,A(d),a,e))}var
+aQ=d(ap,o),Z=k(function(a){return aF(a,f(y))},aQ),_=Z?d3(d(ap,o)):Z;if(_)var
+$=fY(x,o),C=$?k(function(a){return m(f(a),i)},a):$;else
 var
 C=_;if(C){var
 v=0;switch(g[0]){case
@@ -2814,9 +2822,9 @@ E=g[1],O=0;if(typeof
 b!=="number")switch(b[0]){case
 0:var
 aw=0;if(a){if(a[2])return 0;var
-aQ=a[1],aR=b[2],aS=b[1],aa=c1(z,q);if(aa){var
+aR=a[1],aS=b[2],aT=b[1],aa=c1(z,q);if(aa){var
 n=function(c,a){var
-b=w(E,a);return function(a){return s(aQ,b,aS,aR,a)}},l=j;O=1;aw=1}else
+b=w(E,a);return function(a){return s(aR,b,aT,aS,a)}},l=j;O=1;aw=1}else
 var
 ad=aa}else
 var
@@ -2825,7 +2833,7 @@ ad=a;if(!aw)return ad;break;case
 ay=0;if(a){if(a[2])return 0;var
 aW=a[1],aY=b[2],aZ=b[1],ae=c1(z,q),az=0;if(ae){var
 af=H(E[1],e),ag=af?H(E[2],e):af;if(ag){var
-n=function(c,b,a){return s(aW,b,aZ,aY,d(nK,a))},l=j;O=1;ay=1;az=1}else
+n=function(c,b,a){return s(aW,b,aZ,aY,d(nM,a))},l=j;O=1;ay=1;az=1}else
 var
 ah=ag}else
 var
@@ -2843,21 +2851,21 @@ aB=0,a2=g[1];if(typeof
 b==="number"||!(3===b[0]))aB=1;else{var
 aC=0;if(a){var
 u=a[2],aD=0;if(u){if(u[2])return 0;var
-ak=b[1],a3=u[1],a5=a[1],a6=b[2],al=jR(c,ak,b[3]),am=hl(i,al);if(am){var
+aj=b[1],a3=u[1],a5=a[1],a6=b[2],al=jT(c,aj,b[3]),am=hm(i,al);if(am){var
 n=function(f,b,a){var
-d=aq(f,al),e=s(a5,w(d,b),ak,a6,a);return e?Y(a3,B(r(c,a2,d),b),a):e},l=j;aC=1;aD=1}else
+d=aq(f,al),e=s(a5,w(d,b),aj,a6,a);return e?Y(a3,B(r(c,a2,d),b),a):e},l=j;aC=1;aD=1}else
 var
-ap=am}else
+ao=am}else
 var
-ap=u;if(!aD)var
-ar=ap}else
+ao=u;if(!aD)var
+ar=ao}else
 var
 ar=a;if(!aC)return ar}if(aB)return 0;break;case
 3:var
-aF=0;if(typeof
+aE=0;if(typeof
 b==="number"&&!b){if(a)return 0;var
 I=g[1];v=1}else
-aF=1;if(aF)return 0;break;case
+aE=1;if(aE)return 0;break;case
 4:var
 aG=0,a8=g[2];if(typeof
 b==="number"||!(0===b[0]))aG=1;else{if(!a)return a;if(a[2])return 0;var
@@ -2879,14 +2887,14 @@ p=b[2],L=b[1],bb=a[1],au=m(f(j),i);if(au){var
 n=function(a,x){var
 y=A(bb);return function(g){var
 k=m(f(g),i),l=k?m(f(p),i):k;if(l){var
-t=d(ao,g),u=dZ(L,d0(L,p,aV(c),t)),v=aL(hp(c,at,as,x,d(ao,g)),u),a=0,b=g,h=v,w=f(p);for(;;){if(b){var
+t=d(ap,g),u=d0(L,d1(L,p,aO(c),t)),v=aL(hq(c,at,as,x,d(ap,g)),u),a=0,b=g,h=v,w=f(p);for(;;){if(b){var
 o=b[1][2],q=m(a,at),s=d(function(g,h){return function(e){var
 a=M(ax(0,f(p)),p);return d(function(a){var
-b=nN(L,a[2],e[1]);if(h&&m(a[1],g))return B(b,aj(r(c,as,e[2])));return b},a)}}(a,q),o),j=fR(c,y,nM(c,a,w),s,h);if(j){var
+b=nP(L,a[2],e[1]);if(h&&m(a[1],g))return B(b,ak(r(c,as,e[2])));return b},a)}}(a,q),o),j=fR(c,y,nO(c,a,w),s,h);if(j){var
 a=[0,a],b=b[2],h=j[1];continue}var
 e=j}else
 var
-e=[0,h];if(e)return aU(c,i,e[1]);var
+e=[0,h];if(e)return aV(c,i,e[1]);var
 n=e;break}}else
 var
 n=l;return n}},l=j;aI=1}else
@@ -2894,32 +2902,32 @@ var
 av=au}else
 var
 av=a;if(!aI)return av}if(aH)return 0;break;default:return 0}if(v){var
-K=h(U,I);if(!K)return K;var
+J=h(U,I);if(!J)return J;var
 a7=function(b,f,a){return k(function(a){var
-b=f[2],c=a[2],d=an(function(b,a){return G(by(e,W(b[2][1])),a)},e,c);return D(e,aX(aX(a[1][2][1],d),b))},a)},ac=a7,ab=[0,[0,0,K[1]],0]}else{var
+b=f[2],c=a[2],d=an(function(b,a){return G(bx(e,W(b[2][1])),a)},e,c);return D(e,aX(aX(a[1][2][1],d),b))},a)},ac=a7,ab=[0,[0,0,J[1]],0]}else{var
 F=eZ(q,U,l);if(!F)return F;var
 ac=n,ab=F[1]}var
-aT=a4(i);return k(function(a){var
-b=d(function(b){return hr(c,a,aN,b)},ab);return fm(ac,a,aq(a,aO),b)},aT)}return C}function
-jS(j,b){var
-f=an(function(b,a){return by(cL(b),a)},e,b);function
-g(a){if(a){if(H(cL(a[1]),f))return 0;var
+aU=a4(i);return k(function(a){var
+b=d(function(b){return hs(c,a,aN,b)},ab);return fm(ac,a,aq(a,aP),b)},aU)}return C}function
+jU(j,b){var
+f=an(function(b,a){return bx(cM(b),a)},e,b);function
+g(a){if(a){if(H(cM(a[1]),f))return 0;var
 b=[0,g(a[2])]}else
 var
 b=a;return b}var
 h=g(b);if(H(f,e)){var
 k=d(function(a){return t},b),l=b?[0,a,b[2]]:b;return[0,[0,[0,0,l],e],k]}var
-i=jl(G(mJ(f),a)),m=d(function(a){return t},b);return[0,[0,[0,h,b],i],du(t,h,J(j,cp(c(2,a),i)),m)]}function
-hA(g,P,o,an,x,v,n,O,M,h,b,l,u,am,K,al,I,G){var
-i=f(O),ap=cX(0,O),ar=bD(eY(o,an,x,h,b),P),as=fT(g,l,u,v),at=fW(g,P,v,n,ap,ar,l,u),av=M?M[1]:R(t),Q=jS(g,am),S=Q[1],T=S[1],y=T[2],j=T[1],U=Q[2],aw=S[2],p=d(function(b){return aB(b,aw,J(g,a))},y);function
-V(a){return jH(g,j,p,K,al,I,G,jG(g,j,p,i,a,0))}function
-W(a){return a?aU(g,i,a[1]):a}function
-z(d,c,b,a){return W(jI(g,j,p,U,c,b,a,V(N(d))))}var
-ax=d(ao,l),X=k(function(a){return aE(a,f(v))},ax),Y=X?d3(d(ao,l)):X,Z=Y?m(f(y),i):Y;if(Z)var
-_=fX(u,l),A=_?m(f(K),i):_;else
+i=jm(G(mL(f),a)),m=d(function(a){return t},b);return[0,[0,[0,h,b],i],dv(t,h,K(j,cq(c(2,a),i)),m)]}function
+hB(g,P,o,an,x,v,n,O,M,h,b,l,u,am,L,al,I,G){var
+i=f(O),ao=cX(0,O),ar=bC(eY(o,an,x,h,b),P),as=fT(g,l,u,v),at=fX(g,P,v,n,ao,ar,l,u),av=M?M[1]:R(t),Q=jU(g,am),S=Q[1],T=S[1],y=T[2],j=T[1],U=Q[2],aw=S[2],p=d(function(b){return aB(b,aw,K(g,a))},y);function
+V(a){return jI(g,j,p,L,al,I,G,jH(g,j,p,i,a,0))}function
+W(a){return a?aV(g,i,a[1]):a}function
+z(d,c,b,a){return W(jJ(g,j,p,U,c,b,a,V(N(d))))}var
+ax=d(ap,l),X=k(function(a){return aF(a,f(v))},ax),Y=X?d3(d(ap,l)):X,Z=Y?m(f(y),i):Y;if(Z)var
+_=fY(u,l),A=_?m(f(L),i):_;else
 var
 A=Z;var
-$=A?D(e,I):A,aa=$?fG(G,c(2,c(2,c(2,c(2,c(2,c(2,a))))))):$,ab=aa?aE(j,i):aa,ac=ab?L(H(q(j,y,e),e)):ab;if(ac){switch(h[0]){case
+$=A?D(e,I):A,aa=$?fG(G,c(2,c(2,c(2,c(2,c(2,c(2,a))))))):$,ab=aa?aF(j,i):aa,ac=ab?J(H(q(j,y,e),e)):ab;if(ac){switch(h[0]){case
 0:var
 C=h[1],F=0;if(typeof
 b==="number")F=1;else
@@ -2929,9 +2937,9 @@ ay=b[2],az=b[1],ad=c1(x,n);if(!ad)return ad;var
 s=function(a){var
 b=w(C,a);return function(a){return z(b,az,ay,a)}},r=o;break;case
 2:var
-aD=b[2],aF=b[1],ae=c1(x,n),ai=0;if(ae){var
+aD=b[2],aE=b[1],ae=c1(x,n),ai=0;if(ae){var
 af=H(C[1],e),ag=af?H(C[2],e):af;if(ag){var
-s=function(b,a){return z(b,aF,aD,d(nK,a))},r=o;ai=1}else
+s=function(b,a){return z(b,aE,aD,d(nM,a))},r=o;ai=1}else
 var
 ah=ag}else
 var
@@ -2940,7 +2948,7 @@ ah=ae;if(!ai)return ah;break;default:F=1}if(F)return 0;break;case
 aj=0,aG=h[1];if(typeof
 b==="number"&&!b)var
 s=function(a){var
-b=B(aG,a);return function(a){return W(n0(g,j,p,U,a,V(b)))}},r=o;else
+b=B(aG,a);return function(a){return W(n2(g,j,p,U,a,V(b)))}},r=o;else
 aj=1;if(aj)return 0;break;case
 4:var
 ak=0,aH=h[2];if(typeof
@@ -2950,137 +2958,144 @@ aI=b[2],aJ=b[1],aK=function(a){var
 b=w(aH,a);return function(a){return z(b,aJ,aI,a)}},s=aK,r=h[1];if(ak)return 0;break;default:return 0}var
 E=eZ(n,at,r);if(E){var
 aA=E[1],aC=a4(i);return k(function(a){var
-b=d(function(b){return hr(g,a,as,b)},aA);return au(s,aq(a,av),b)},aC)}return E}return ac}function
-oh(s,r,q,p,o,n,F,m,c,l,k,j,i,g,a){var
+b=d(function(b){return hs(g,a,as,b)},aA);return au(s,aq(a,av),b)},aC)}return E}return ac}function
+oj(s,r,q,p,o,n,F,m,c,l,k,j,i,g,a){var
 w=d(function(a){return e},c),v=0;if(typeof
 a!=="number")switch(a[0]){case
 5:var
-G=a[1],H=function(a){return hA(s,r,q,p,o,n,m,c,a,l,G,0,0,w,k,j,i,g)},y=H,x=a[3],t=a[2];v=1;break;case
+G=a[1],H=function(a){return hB(s,r,q,p,o,n,m,c,a,l,G,0,0,w,k,j,i,g)},y=H,x=a[3],t=a[2];v=1;break;case
 10:var
 b=a[4],B=a[3],C=a[2],f=a[1],E=0;if(typeof
 f!=="number"&&5===f[0]){if(!b)return b;if(b[2])return 0;var
-I=b[1],J=f[1],K=function(a){return hA(s,r,q,p,o,n,m,c,a,l,J,C,B,I,k,j,i,g)},y=K,x=f[3],t=f[2];v=1;E=1}if(!E)return b?b[2]?0:hA(s,r,q,p,o,n,m,c,0,l,f,C,B,b[1],k,j,i,g):b;break}if(v){var
+I=b[1],J=f[1],K=function(a){return hB(s,r,q,p,o,n,m,c,a,l,J,C,B,I,k,j,i,g)},y=K,x=f[3],t=f[2];v=1;E=1}if(!E)return b?b[2]?0:hB(s,r,q,p,o,n,m,c,0,l,f,C,B,b[1],k,j,i,g):b;break}if(v){var
 u=h(F,c);if(u){var
 z=D(e,t);if(z)return y([0,fN(t,x,u[1])]);var
 A=z}else
 var
-A=u;return A}return hA(s,r,q,p,o,n,m,c,0,l,a,0,0,w,k,j,i,g)}function
-hB(b,ap,o,L,K,v,an,G,am,F,u,E,l,h,j,i,s,D){var
-n=f(K),ar=cX(0,K),O=fT(b,h,j,o),ah=ht(h,j),ai=d(function(a){var
-b=jN(h,j,a[1]),c=b?jN(h,j,a[2]):b,d=c?[1,a[1],a[2]]:c;return d},ah),ak=ax(0,f(h)),al=g(d(function(a){var
-b=jN(h,j,a),c=b?[0,a]:b;return c},ak),ai),as=fW(b,ap,o,L,ar,an,h,j),at=E?E[1]:R(t),P=hm(am,R(jM(F,fS(h,0,o),u))),Q=d(function(a){return d(function(b){return n3(a,b[1])},h)},u);function
-S(a){return a?aU(b,n,a[1]):a}var
-au=d(ao,h),T=k(function(a){return aE(a,f(o))},au),U=T?d3(d(ao,h)):T;if(U){var
-V=fX(j,h),W=V?k(function(a){return m(f(a),n)},i):V;if(W)var
-av=f(v),x=m(f(u),av);else
+A=u;return A}return hB(s,r,q,p,o,n,m,c,0,l,a,0,0,w,k,j,i,g)}function
+hC(b,ar,p,P,O,v,ao,L,an,J,u,G,l,h,j,i,o,F){var
+n=f(O),as=cX(0,O),Q=fT(b,h,j,p),ai=hu(h,j),aj=d(function(a){var
+b=jP(h,j,a[1]),c=b?jP(h,j,a[2]):b,d=c?[1,a[1],a[2]]:c;return d},ai),al=ax(0,f(h)),am=g(d(function(a){var
+b=jP(h,j,a),c=b?[0,a]:b;return c},al),aj),at=fX(b,ar,p,P,as,ao,h,j),au=G?G[1]:R(t),S=hn(an,R(jN(J,fS(h,0,p),u))),T=d(function(a){return d(function(b){return n5(a,b[1])},h)},u);function
+U(a){return a?aV(b,n,a[1]):a}var
+av=d(ap,h),V=k(function(a){return aF(a,f(p))},av),W=V?d3(d(ap,h)):V;if(W){var
+Y=fY(j,h),Z=Y?k(function(a){return m(f(a),n)},i):Y;if(Z)var
+aw=f(v),y=m(f(u),aw);else
 var
-x=W;if(x)var
-aw=f(v),p=m(f(D),aw);else
+y=Z;if(y)var
+ay=f(v),q=m(f(F),ay);else
 var
-p=x}else
+q=y}else
 var
-p=U;if(p)var
-Y=j?1:j,y=Y?fG(s,c(2,c(2,c(2,c(2,c(2,c(2,a))))))):Y;else
+q=W;if(q)var
+_=j?1:j,z=_?fG(o,c(2,c(2,c(2,c(2,c(2,c(2,a))))))):_;else
 var
-y=p;if(y){var
-C=0;if(G){var
-Z=G[1],af=0;if(typeof
+z=q;if(z){var
+E=0;if(L){var
+A=L[1],ag=0;if(typeof
 l==="number"&&!l){if(!i)return i;if(i[2])return 0;var
-ay=i[1],_=function(E,D,C){var
-F=X([0,B(r(b,Z,aq(E,P)),D),0],n),u=d(function(a){return J(b,a)},ay),c=C,f=F;for(;;){if(c){var
-j=c[1],k=j[2],l=k[1],g=l[2],h=l[1],m=k[2],o=[0,[0,br(g),h],f];if(m){var
-p=I(e,g[1]);if(p)var
-w=d(function(a){var
-c=r(b,Z,a[2][2]),d=a[2][1][1],e=[0,[0,aj(a[2][1][2]),d],c];return[0,a[1],e]},m),x=j[1],y=d(function(a){return t},h),z=[0,aV(b),y],A=aV(b),a=ob(b,[0,N(b8(d2(b,h,u),A,g)),u],0,vJ,z,s,x,w,o);else
+az=i[1],$=function(M,L,J){var
+O=X([0,B(r(b,A,aq(M,S)),L),0],n),h=d(function(a){return K(b,a)},az),g=J,i=O;for(;;){if(g){var
+p=g[1],q=p[2],s=q[1],c=s[2],f=s[1],j=q[2],k=p[1],l=[0,[0,bq(c),f],i];if(k){var
+u=I(e,c[1]);if(u)var
+y=d(function(a){var
+c=r(b,A,a[2][2]),d=a[2][1][1],e=[0,[0,ak(a[2][1][2]),d],c];return[0,a[1],e]},j),z=d(function(a){return t},f),C=[0,aO(b),z],D=aO(b),a=jO(b,[0,N(bQ(du(b,f,h),D,c)),h],0,vL,C,o,k,y,l);else
 var
-a=p}else
+a=u}else
+if(j){var
+w=I(e,c[1]);if(w)var
+E=d(function(a){var
+c=r(b,A,a[2][2]),d=a[2][1][1],e=[0,[0,ak(a[2][1][2]),d],c];return[0,a[1],e]},j),F=d(function(a){return t},f),G=[0,aO(b),F],H=aO(b),a=jO(b,[0,N(bQ(du(b,f,h),H,c)),h],0,vM,G,o,k,E,l);else
 var
-a=[0,o];if(a){var
-i=eP(b,a[1]);if(i){var
-c=c[2],f=i[1];continue}var
-q=i}else
+a=w}else
 var
-q=a;var
-v=q}else
+a=[0,l];if(a){var
+m=eP(b,a[1]);if(m){var
+g=g[2],i=m[1];continue}var
+v=m}else
 var
-v=[0,f];return S(v)}};C=1;af=1}if(!af)return 0}else{var
-ag=0;if(typeof
+v=a;var
+x=v}else
+var
+x=[0,i];return U(x)}};E=1;ag=1}if(!ag)return 0}else{var
+ah=0;if(typeof
 l!=="number"&&0===l[0]){if(!i)return i;var
-A=i[2],q=l[1],aF=i[1],aG=l[2];if(A){if(A[2])return 0;var
-ad=A[1],aH=k(function(a){return H(a,e)},ad)?0:[0,d(function(d){var
-e=J(b,a);return aB(d,c(2,c(2,a)),e)},ad)],ae=aH}else
+D=i[2],s=l[1],aG=i[1],aH=l[2];if(D){if(D[2])return 0;var
+ae=D[1],aI=k(function(a){return H(a,e)},ae)?0:[0,d(function(d){var
+e=K(b,a);return aB(d,c(2,c(2,a)),e)},ae)],af=aI}else
 var
-ae=0;var
-_=function(x,v,u){var
-y=X([0,N(w(aq(x,P),v)),0],n),c=aG,a=u,f=y,z=d(function(a){return J(b,a)},aF);for(;;){if(c){if(a){var
-h=a[1],i=h[2],j=i[1],e=c[1],m=bR(j[2]),o=aL(f,fL(q,e,cu(q,j[1],m,e))),p=i[2],r=d(function(e){return function(a){var
-b=N(a[2][2]),c=[0,d(aj,cu(q,a[2][1][1],a[2][1][2],e)),b];return[0,a[1],c]}}(e),p),t=h[1],g=ob(b,z,ae,0,d(function(a){return aB(a,q,aV(b))},e),s,t,r,o);if(g){var
+af=0;var
+$=function(x,v,u){var
+y=X([0,N(w(aq(x,S),v)),0],n),c=aH,a=u,f=y,z=d(function(a){return K(b,a)},aG);for(;;){if(c){if(a){var
+h=a[1],i=h[2],j=i[1],e=c[1],m=bS(j[2]),p=aL(f,fL(s,e,cv(s,j[1],m,e))),q=i[2],r=d(function(e){return function(a){var
+b=N(a[2][2]),c=[0,d(ak,cv(s,a[2][1][1],a[2][1][2],e)),b];return[0,a[1],c]}}(e),q),t=h[1],g=jO(b,z,af,0,d(function(a){return aB(a,s,aO(b))},e),o,t,r,p);if(g){var
 c=c[2],a=a[2],f=g[1];continue}var
 k=g}else
 var
 k=a;var
 l=k}else
 var
-l=a?0:[0,f];return S(l)}};C=1;ag=1}if(!ag)var
-ac=0}if(C){var
-z=eZ(L,as,v);if(z){var
-$=z[1],az=M(Q,$),aa=k(function(a){return n7(a[1],a[2])},az);if(aa){var
-aA=M(D,M(Q,$)),aC=d(function(a){var
-b=a[2][2],c=[0,oc(O,al,0,a[2][2]),b];return[0,a[1],[0,a[2][1],c]]},aA),aD=a4(n);return k(function(c){var
+l=a?0:[0,f];return U(l)}};E=1;ah=1}if(!ah)var
+ad=0}if(E){var
+C=eZ(P,at,v);if(C){var
+aa=C[1],aA=M(T,aa),ab=k(function(a){return n9(a[1],a[2])},aA);if(ab){var
+aC=M(F,M(T,aa)),aD=d(function(a){var
+b=a[2][2],c=[0,od(a[1],am,0,a[2][2]),b];return[0,a[1],[0,a[2][1],c]]},aC),aE=a4(n);return k(function(c){var
 a=d(function(a){var
-f=a[2][2][1],d=n5(b,F,c,O,a[2][1],a[2][2][2]),e=M(f,d[2]);return[0,a[1],[0,d[1],e]]},aC);return _(c,aq(c,at),a)},aD)}var
-ab=aa}else
+f=a[2][2][1],k=a[2][2][2],l=a[2][1],g=M(f,Q),e=n7(b,J,c,d(function(a){return oe(a[1],a[2])},g),l,k),i=e[2],h=M(f,Q),j=M(x(function(a){var
+b=oe(a[1],a[2]);return d(function(b){return a[1]},b)},h),i);return[0,a[1],[0,e[1],j]]},aD);return $(c,aq(c,au),a)},aE)}var
+ac=ab}else
 var
-ab=z;return ab}}else
+ac=C;return ac}}else
 var
-ac=y;return ac}function
-oi(a){return d(function(a){return 0},a)}function
-oj(g,x,o,v,Q,I,n,l,G,F,i){function
-p(K,b,j,y,z){if(typeof
+ad=z;return ad}function
+ok(a){return d(function(a){return 0},a)}function
+ol(g,x,o,v,Q,I,n,l,G,F,i){function
+p(L,b,j,y,z){if(typeof
 b!=="number"&&14===b[0]){if(F)return 0;var
-aM=b[3],aN=b[2],aO=b[1],aP=oi(o);return hB(g,x,v,I,n,o,bD(bJ(o),x),l,G,e,aP,K,aO,j,y,[0,z,0],aN,aM)}var
-h=f(n),au=cX(0,n),av=bD(bJ(o),x),aw=fT(g,j,y,v),ax=fW(g,x,v,I,au,av,j,y),ay=K?K[1]:R(t);function
-p(a){return a?aU(g,h,a[1]):a}function
+aM=b[3],aN=b[2],aO=b[1],aP=ok(o);return hC(g,x,v,I,n,o,bC(bJ(o),x),l,G,e,aP,L,aO,j,y,[0,z,0],aN,aM)}var
+h=f(n),au=cX(0,n),av=bC(bJ(o),x),aw=fT(g,j,y,v),ax=fX(g,x,v,I,au,av,j,y),ay=L?L[1]:R(t);function
+p(a){return a?aV(g,h,a[1]):a}function
 O(b,a){return N(w(aq(b,G),a))}function
 P(c,b,a){return B(r(g,c,aq(b,G)),a)}var
-az=d(ao,j),Q=k(function(a){return aE(a,f(v))},az),S=Q?d3(d(ao,j)):Q;if(S)var
-T=fX(y,j),A=T?m(f(z),h):T;else
+az=d(ap,j),Q=k(function(a){return aF(a,f(v))},az),S=Q?d3(d(ap,j)):Q;if(S)var
+T=fY(y,j),A=T?m(f(z),h):T;else
 var
 A=S;if(A){var
 an=0;if(F){var
-U=F[1],V=U[1],W=V[1],Y=W[1],Z=V[2],_=U[2],aA=W[2],$=jS(g,z),aa=$[1],ab=aa[1],C=ab[2],i=ab[1],ac=$[2],aC=aa[2],s=d(function(b){return aB(b,aC,J(g,a))},C),ad=function(a){return jH(g,i,s,Y,aA,Z,_,jG(g,i,s,h,a,0))},ae=m(f(C),h),af=ae?m(f(Y),h):ae,ag=af?D(e,Z):af,ah=ag?fG(_,c(2,c(2,c(2,c(2,c(2,c(2,a))))))):ag,ai=ah?aE(i,h):ah,aj=ai?L(H(q(i,C,e),e)):ai,M=0;if(aj)if(l){var
-ap=0,aD=l[1];if(typeof
+U=F[1],V=U[1],W=V[1],Y=W[1],Z=V[2],_=U[2],aA=W[2],$=jU(g,z),aa=$[1],ab=aa[1],C=ab[2],i=ab[1],ac=$[2],aC=aa[2],s=d(function(b){return aB(b,aC,K(g,a))},C),ad=function(a){return jI(g,i,s,Y,aA,Z,_,jH(g,i,s,h,a,0))},ae=m(f(C),h),af=ae?m(f(Y),h):ae,ag=af?D(e,Z):af,ah=ag?fG(_,c(2,c(2,c(2,c(2,c(2,c(2,a))))))):ag,ai=ah?aF(i,h):ah,aj=ai?J(H(q(i,C,e),e)):ai,M=0;if(aj)if(l){var
+ao=0,aD=l[1];if(typeof
 b==="number"&&!b){var
-u=function(c,b,a){return p(n0(g,i,s,ac,a,ad(P(aD,c,b))))};M=1;ap=1}if(!ap)return 0}else{var
+u=function(c,b,a){return p(n2(g,i,s,ac,a,ad(P(aD,c,b))))};M=1;ao=1}if(!ao)return 0}else{var
 ar=0;if(typeof
 b!=="number"&&0===b[0]){var
-aH=b[2],aI=b[1],u=function(c,b,a){return p(jI(g,i,s,ac,aI,aH,a,ad(O(c,b))))};M=1;ar=1}if(!ar)var
+aH=b[2],aI=b[1],u=function(c,b,a){return p(jJ(g,i,s,ac,aI,aH,a,ad(O(c,b))))};M=1;ar=1}if(!ar)var
 ak=0}else
 var
 ak=aj;if(!M)return ak}else{var
-al=d(function(a){return J(g,a)},z);if(l){var
+al=d(function(a){return K(g,a)},z);if(l){var
 as=0,aJ=l[1];if(typeof
 b==="number"&&!b){var
-u=function(c,b,a){return p(nL(g,al,a,X([0,P(aJ,c,b),0],h)))};as=1}if(!as)return 0}else{var
+u=function(c,b,a){return p(nN(g,al,a,X([0,P(aJ,c,b),0],h)))};as=1}if(!as)return 0}else{var
 at=0;if(typeof
 b==="number"||!(0===b[0]))at=1;else
 var
-aK=b[2],aL=b[1],u=function(c,b,a){return p(jE(g,al,aL,aK,a,X([0,O(c,b),0],h)))};if(at){var
+aK=b[2],aL=b[1],u=function(c,b,a){return p(jF(g,al,aL,aK,a,X([0,O(c,b),0],h)))};if(at){var
 am=0;an=1}}}if(!an){var
 E=eZ(I,ax,o);if(E){var
-aF=E[1],aG=a4(h);return k(function(a){var
-b=d(function(b){return hr(g,a,aw,b)},aF);return u(a,aq(a,ay),b)},aG)}return E}}else
+aE=E[1],aG=a4(h);return k(function(a){var
+b=d(function(b){return hs(g,a,aw,b)},aE);return u(a,aq(a,ay),b)},aG)}return E}}else
 var
 am=A;return am}var
 C=d(function(a){return e},n),A=0;if(typeof
 i!=="number")switch(i[0]){case
 5:var
-S=i[1],T=function(a){return p(a,S,0,0,C)},K=T,E=i[3],s=i[2];A=1;break;case
+S=i[1],T=function(a){return p(a,S,0,0,C)},L=T,E=i[3],s=i[2];A=1;break;case
 10:var
 b=i[4],y=i[3],z=i[2],j=i[1],P=0;if(typeof
 j!=="number")switch(j[0]){case
 5:if(!b)return b;if(b[2])return 0;var
-U=b[1],V=j[1],W=function(a){return p(a,V,z,y,U)},K=W,E=j[3],s=j[2];A=1;P=1;break;case
+U=b[1],V=j[1],W=function(a){return p(a,V,z,y,U)},L=W,E=j[3],s=j[2];A=1;P=1;break;case
 3:case
 7:case
 9:case
@@ -3089,22 +3104,22 @@ U=b[1],V=j[1],W=function(a){return p(a,V,z,y,U)},K=W,E=j[3],s=j[2];A=1;P=1;break
 13:case
 14:return b?b[2]?0:p(0,j,z,y,b[1]):b}if(!P)return b?b[2]?0:p(0,j,z,y,b[1]):b;break}if(A){var
 u=h(Q,n);if(u){var
-M=D(e,s);if(M)return K([0,fN(s,E,u[1])]);var
+M=D(e,s);if(M)return L([0,fN(s,E,u[1])]);var
 O=M}else
 var
 O=u;return O}return p(0,i,0,0,C)}function
-ok(b,p,j,o,T,A,n,l,F,z,s,g){function
+om(b,p,j,o,T,A,n,l,F,z,s,g){function
 q(C,h,i,u,g){if(typeof
 h!=="number"&&14===h[0]){var
-ab=h[3],ac=h[2],ad=h[1];if(l)return g?g[2]?0:hB(b,p,o,A,n,j,bD(bJ(j),p),l,F,z,s,C,ad,i,u,g,ac,ab):g;if(g){var
-E=g[2];if(E)return E[2]?0:hB(b,p,o,A,n,j,bD(bJ(j),p),l,F,z,s,C,ad,i,u,g,ac,ab);var
+ab=h[3],ac=h[2],ad=h[1];if(l)return g?g[2]?0:hC(b,p,o,A,n,j,bC(bJ(j),p),l,F,z,s,C,ad,i,u,g,ac,ab):g;if(g){var
+E=g[2];if(E)return E[2]?0:hC(b,p,o,A,n,j,bC(bJ(j),p),l,F,z,s,C,ad,i,u,g,ac,ab);var
 ae=E}else
 var
 ae=g;return ae}var
-q=f(n),ai=cX(0,n),ak=bD(bJ(j),p),al=fT(b,i,u,o),am=fW(b,p,o,A,ai,ak,i,u),an=C?C[1]:R(t),K=hm(F,R(jM(z,fS(i,0,o),s))),L=d(function(a){return d(function(b){return n3(a,b[1])},i)},s);function
-O(a){return a?aU(b,q,a[1]):a}var
-ap=d(ao,i),P=k(function(a){return aE(a,f(o))},ap),Q=P?d3(d(ao,i)):P;if(Q){var
-S=fX(u,i),T=S?k(function(a){return m(f(a),q)},g):S;if(T)var
+q=f(n),ai=cX(0,n),aj=bC(bJ(j),p),al=fT(b,i,u,o),am=fX(b,p,o,A,ai,aj,i,u),an=C?C[1]:R(t),J=hn(F,R(jN(z,fS(i,0,o),s))),L=d(function(a){return d(function(b){return n5(a,b[1])},i)},s);function
+O(a){return a?aV(b,q,a[1]):a}var
+ao=d(ap,i),P=k(function(a){return aF(a,f(o))},ao),Q=P?d3(d(ap,i)):P;if(Q){var
+S=fY(u,i),T=S?k(function(a){return m(f(a),q)},g):S;if(T)var
 ar=f(j),v=m(f(s),ar);else
 var
 v=T}else
@@ -3114,11 +3129,11 @@ G=0;if(l){var
 U=l[1],af=0;if(typeof
 h==="number"&&!h){if(!g)return g;if(g[2])return 0;var
 as=g[1],V=function(A,z,y){var
-C=X([0,B(r(b,U,aq(A,K)),z),0],q),p=d(function(a){return J(b,a)},as),c=y,f=C;for(;;){if(c){var
-j=c[1],k=j[1],g=k[2],h=k[1],l=j[2],m=[0,[0,br(g),h],f];if(l){var
+C=X([0,B(r(b,U,aq(A,J)),z),0],q),p=d(function(a){return K(b,a)},as),c=y,f=C;for(;;){if(c){var
+j=c[1],k=j[1],g=k[2],h=k[1],l=j[2],m=[0,[0,bq(g),h],f];if(l){var
 n=I(e,g[1]);if(n)var
 u=d(function(a){var
-c=r(b,U,a[2]),d=a[1][1];return[0,[0,aj(a[1][2]),d],c]},l),v=d(function(a){return t},h),w=[0,aV(b),v],x=aV(b),a=hv(b,[0,N(b8(d2(b,h,p),x,g)),p],0,vF,w,u,m);else
+c=r(b,U,a[2]),d=a[1][1];return[0,[0,ak(a[1][2]),d],c]},l),v=d(function(a){return t},h),w=[0,aO(b),v],x=aO(b),a=hw(b,[0,N(bQ(du(b,h,p),x,g)),p],0,vH,w,u,m);else
 var
 a=n}else
 var
@@ -3136,10 +3151,10 @@ h!=="number"&&0===h[0]){var
 ah=0;if(g){var
 x=g[2];if(x){if(x[2])return 0;var
 $=x[1],y=h[1],av=g[1],aw=h[2],ax=k(function(a){return H(a,e)},$)?0:[0,d(function(d){var
-e=J(b,a);return aB(d,c(2,c(2,a)),e)},$)],V=function(s,r,p){var
-t=X([0,N(w(aq(s,K),r)),0],q),c=aw,a=p,f=t,u=d(function(a){return J(b,a)},av);for(;;){if(c){if(a){var
-h=a[1],i=h[1],e=c[1],l=bR(i[2]),m=aL(f,fL(y,e,cu(y,i[1],l,e))),n=h[2],o=d(function(c){return function(a){var
-b=N(a[2]);return[0,d(aj,cu(y,a[1][1],a[1][2],c)),b]}}(e),n),g=hv(b,u,ax,0,d(function(a){return aB(a,y,aV(b))},e),o,m);if(g){var
+e=K(b,a);return aB(d,c(2,c(2,a)),e)},$)],V=function(s,r,p){var
+t=X([0,N(w(aq(s,J),r)),0],q),c=aw,a=p,f=t,u=d(function(a){return K(b,a)},av);for(;;){if(c){if(a){var
+h=a[1],i=h[1],e=c[1],l=bS(i[2]),m=aL(f,fL(y,e,cv(y,i[1],l,e))),n=h[2],o=d(function(c){return function(a){var
+b=N(a[2]);return[0,d(ak,cv(y,a[1][1],a[1][2],c)),b]}}(e),n),g=hw(b,u,ax,0,d(function(a){return aB(a,y,aO(b))},e),o,m);if(g){var
 c=c[2],a=a[2],f=g[1];continue}var
 j=g}else
 var
@@ -3153,9 +3168,9 @@ var
 aa=g;if(!ah)return aa}if(!ag)var
 _=0}if(G){var
 D=eZ(A,am,j);if(D){var
-W=D[1],at=M(L,W),Y=k(function(a){return n7(a[1],a[2])},at);if(Y){var
+W=D[1],at=M(L,W),Y=k(function(a){return n9(a[1],a[2])},at);if(Y){var
 au=a4(q);return k(function(a){var
-c=M(L,W),e=d(function(c){return n5(b,z,a,al,c[1],c[2])},c);return V(a,aq(a,an),e)},au)}var
+c=M(L,W),e=d(function(c){return n7(b,z,a,al,c[1],c[2])},c);return V(a,aq(a,an),e)},au)}var
 Z=Y}else
 var
 Z=D;return Z}}else
@@ -3170,11 +3185,11 @@ O=g[4],P=g[3],Q=g[2],i=g[1],S=0;if(typeof
 i!=="number"&&5===i[0]){var
 W=i[1],Y=function(a){return q(a,W,Q,P,O)},G=Y,E=i[3],v=i[2];y=1;S=1}if(!S)return q(0,i,Q,P,O);break}if(y){var
 x=h(T,n);if(x){var
-K=D(e,v);if(K)return G([0,fN(v,E,x[1])]);var
-L=K}else
+J=D(e,v);if(J)return G([0,fN(v,E,x[1])]);var
+L=J}else
 var
 L=x;return L}return q(0,g,0,0,C)}function
-ol(k,j,f,t,i,s,h,r,q,c,d,p,o,b){if(typeof
+on(k,j,f,t,i,s,h,r,q,c,d,p,o,b){if(typeof
 d!=="number"&&14===d[0]){var
 u=d[1];switch(c[0]){case
 0:var
@@ -3184,16 +3199,16 @@ m=c[1],l=0,g=f;else{var
 w=v;n=1}}else{var
 w=b;n=1}if(n)return w;break;case
 1:if(!b)return b;if(b[2])return 0;var
-B=c[1],m=B,l=[0,J(k,a)],g=f;break;case
+B=c[1],m=B,l=[0,K(k,a)],g=f;break;case
 4:if(!b)return b;if(b[2])return 0;var
 m=c[2],l=0,g=c[1];break;default:return 0}var
-x=d[3],y=d[2],z=oi(g),A=R(m);return hB(k,j,s,h,r,g,bD(eY(f,t,i,c,u),j),l,A,e,z,q,u,p,o,b,y,x)}return vV(k,j,f,t,i,s,h,r,q,c,d,p,o,b)}function
-om(m,l,k,j,i,g,p,f,b,d,a){if(typeof
+x=d[3],y=d[2],z=ok(g),A=R(m);return hC(k,j,s,h,r,g,bC(eY(f,t,i,c,u),j),l,A,e,z,q,u,p,o,b,y,x)}return vZ(k,j,f,t,i,s,h,r,q,c,d,p,o,b)}function
+oo(m,l,k,j,i,g,p,f,b,d,a){if(typeof
 a!=="number")switch(a[0]){case
 5:var
 q=a[2],n=h(p,b);if(n){var
 r=D(e,q);if(r){var
-z=a[1];return og(m,l,k,j,i,g,f,b,[0,fN(q,a[3],n[1])],d,z)}var
+z=a[1];return oi(m,l,k,j,i,g,f,b,[0,fN(q,a[3],n[1])],d,z)}var
 s=r}else
 var
 s=n;return s;case
@@ -3202,16 +3217,16 @@ t=a[4],u=a[3],v=a[2],c=a[1];if(typeof
 c!=="number"&&5===c[0]){var
 w=c[2],o=h(p,b);if(o){var
 x=D(e,w);if(x){var
-A=c[1];return ol(m,l,k,j,i,g,f,b,[0,fN(w,c[3],o[1])],d,A,v,u,t)}var
+A=c[1];return on(m,l,k,j,i,g,f,b,[0,fN(w,c[3],o[1])],d,A,v,u,t)}var
 y=x}else
 var
-y=o;return y}return ol(m,l,k,j,i,g,f,b,0,d,c,v,u,t)}return og(m,l,k,j,i,g,f,b,0,d,a)}function
-jT(a){switch(a[0]){case
+y=o;return y}return on(m,l,k,j,i,g,f,b,0,d,c,v,u,t)}return oi(m,l,k,j,i,g,f,b,0,d,a)}function
+jV(a){switch(a[0]){case
 9:case
 10:return 0;default:return 1}}function
-hC(u,s,r,p,l,b,f,j){var
-h=jT(b),i=h?k(function(b){var
-a=q(b,bA(eW,f,l),t);return H(a[1],a[2])},j):h;return i?k(function(ao){switch(b[0]){case
+hD(u,s,r,p,l,b,f,j){var
+h=jV(b),i=h?k(function(b){var
+a=q(b,bz(eW,f,l),t);return H(a[1],a[2])},j):h;return i?k(function(ao){switch(b[0]){case
 3:var
 f=[0,b[1],0];break;case
 4:var
@@ -3256,10 +3271,10 @@ N=f;return N;case
 o=b[1];if(o){var
 O=o[1],g=b[2];if(O){if(g){var
 P=g[1];if(P)return[0,[0,G(O[1],P[1])]];var
-Q=vA}else
+Q=vC}else
 var
 Q=g;return Q}var
-aj=g?vB:g,R=aj}else
+aj=g?vD:g,R=aj}else
 var
 R=o;return R;case
 7:var
@@ -3268,14 +3283,14 @@ S=p[1],h=b[2];if(S){if(h)var
 q=h[1],ak=q?[0,[0,aX(S[1],q[1])]]:q,T=ak;else
 var
 T=h;return T}var
-al=h?vC:h,U=al}else
+al=h?vE:h,U=al}else
 var
 U=p;return U;case
 8:var
 r=b[1];if(r){var
 V=r[1];if(V){var
 X=V[1];return[0,[0,G(X,X)]]}var
-Y=vD}else
+Y=vF}else
 var
 Y=r;return Y;case
 9:var
@@ -3284,9 +3299,9 @@ t=s[1];if(t){var
 i=t[1],x=a1(i);if(0===x)var
 n=1;else
 if(0<x)var
-n=D(i,a)?0:H(a2(i,aS(2))[2],e)?1:0;else
+n=D(i,a)?0:H(a2(i,aT(2))[2],e)?1:0;else
 var
-y=W(i),n=D(y,a)?0:H(a2(y,aS(2))[2],e)?1:0;var
+y=W(i),n=D(y,a)?0:H(a2(y,aT(2))[2],e)?1:0;var
 am=n?[0,[0,cP(i,c(2,a))]]:n,Z=am}else
 var
 Z=t;var
@@ -3306,37 +3321,37 @@ ac=ab}else
 var
 ac=u;return ac}},u);function
 l(a){return a?a[1]:e}var
-h=d(function(a){return x(l,a)},j),i=k(function(c){var
+h=d(function(a){return y(l,a)},j),i=k(function(c){var
 a=q(c,h,0),b=a?1:a;return b},p);if(i){var
 n=g(bJ(r),f),o=g(bJ(s),n);return k(function(c){var
 a=q(c,h,0);if(a){var
 b=a1(a[1]);return 0===b?1:0<b?0:0}return a},o)}return i},f):i}function
-hD(j,a,i,h,g,f,e,d,c,b){var
-k=bD(eY(i,h,g,c,b),a);return jO(j,a,bA(eW,e,f),k,d)}function
-on(f,d,c,n,m,b,l,q,e,k,j,i,h,a){if(typeof
+hE(j,a,i,h,g,f,e,d,c,b){var
+k=bC(eY(i,h,g,c,b),a);return jQ(j,a,bz(eW,e,f),k,d)}function
+op(f,d,c,n,m,b,l,q,e,k,j,i,h,a){if(typeof
 a!=="number"&&11===a[0]){var
-o=a[3],g=a[1],p=hC(d,c,n,m,b,k,g,a[2]);if(p){var
-r=hD(f,d,c,n,m,b,g,e,k,o);return oj(f,d,c,bA(eW,g,b),l,r,e,j,i,h,o)}return p}return oj(f,d,c,b,l,q,e,j,i,h,a)}function
-oo(r,q,p,o,n,l,j,i,h,g,e,c,a){if(typeof
+o=a[3],g=a[1],p=hD(d,c,n,m,b,k,g,a[2]);if(p){var
+r=hE(f,d,c,n,m,b,g,e,k,o);return ol(f,d,c,bz(eW,g,b),l,r,e,j,i,h,o)}return p}return ol(f,d,c,b,l,q,e,j,i,h,a)}function
+oq(r,q,p,o,n,l,j,i,h,g,e,c,a){if(typeof
 a!=="number"&&12===a[0]){var
-b=a[1],s=L(m(f(b),0));if(s){var
-t=M(jF(d(function(a){return a[1][1][1]},b)),b);return k(function(a){var
-b=a[2],d=b[1];return on(r,q,p,o,n,l,j,i,h,g,e,c,[0,[0,[0,[0,a[1][1],a[1][2]],d[1][2]],d[2]]],b[2])},t)}return s}return on(r,q,p,o,n,l,j,i,h,g,e,c,0,a)}function
-op(g,f,e){var
+b=a[1],s=J(m(f(b),0));if(s){var
+t=M(jG(d(function(a){return a[1][1][1]},b)),b);return k(function(a){var
+b=a[2],d=b[1];return op(r,q,p,o,n,l,j,i,h,g,e,c,[0,[0,[0,[0,a[1][1],a[1][2]],d[1][2]],d[2]]],b[2])},t)}return s}return op(r,q,p,o,n,l,j,i,h,g,e,c,0,a)}function
+or(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
 c=au(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-oq(a){if(typeof
+os(a){if(typeof
 a!=="number"&&11===a[0])return[0,a[1]];return 0}function
-or(g,c,b,s,r,d,p,x,f,o,n,l,j,e,a){if(typeof
+ot(g,c,b,s,r,d,p,x,f,o,n,l,j,e,a){if(typeof
 a!=="number"&&11===a[0]){var
-t=a[3],u=a[2],h=a[1],v=hC(c,b,s,r,d,o,h,u);if(v)var
+t=a[3],u=a[2],h=a[1],v=hD(c,b,s,r,d,o,h,u);if(v)var
 w=M(e,b),i=k(function(a){var
 b=a[1];return k(function(b){var
-d=L(cY(b[1],u));if(d)return d;var
+d=J(cY(b[1],u));if(d)return d;var
 g=b[1],e=cS(0,function(a){switch(a[0]){case
 1:return m(a[1],g);case
 10:var
@@ -3349,29 +3364,29 @@ d=a[2],e=d||a[3],f=e||a[4];return f;case
 b=a[1],c=b||a[2];return c}},c),f=bJ([0,a[2],0]);return ag(function(a){return q(a,e,0)},f)},b)},w);else
 var
 i=v;if(i){var
-y=hD(g,c,b,s,r,d,h,f,o,t);return ok(g,c,b,bA(eW,h,d),p,y,f,n,l,j,e,t)}return i}return ok(g,c,b,d,p,x,f,n,l,j,e,a)}function
-hE(b,a){if(a){var
+y=hE(g,c,b,s,r,d,h,f,o,t);return om(g,c,b,bz(eW,h,d),p,y,f,n,l,j,e,t)}return i}return om(g,c,b,d,p,x,f,n,l,j,e,a)}function
+hF(b,a){if(a){var
 c=a[2];if(b){var
-e=hE(b[1],c);return[0,a[1],e]}var
+e=hF(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-os(c,b,a){var
+ou(c,b,a){var
 d=M(b,a);return k(function(a){var
-b=h(c,a[1]);return b?b:L(a[2])},d)}function
-fY(n,c,l,b,i,t,o,g,a,aj,r){switch(r[0]){case
+b=h(c,a[1]);return b?b:J(a[2])},d)}function
+fZ(n,c,l,b,i,t,o,g,a,aj,r){switch(r[0]){case
 0:var
-au=function(a){return k(L,a)},T=au,A=r[1];break;case
+au=function(a){return k(J,a)},T=au,A=r[1];break;case
 1:var
 av=r[4],aw=r[3],ax=r[2],ay=function(d){var
-e=ds(ax,a),f=fY(n,c,l,b,i,t,o,g,e[1],d,aw);return f?fY(n,c,l,b,i,t,o,g,e[2],d,av):f},T=ay,A=r[1];break;default:var
+e=ds(ax,a),f=fZ(n,c,l,b,i,t,o,g,e[1],d,aw);return f?fZ(n,c,l,b,i,t,o,g,e[2],d,av):f},T=ay,A=r[1];break;default:var
 az=r[4],aA=r[3],aB=r[2],aC=function(d){var
-e=os(jT,t,d);if(e){var
-f=ds(aB,g),h=fY(n,c,l,b,i,t,o,f[1],a,d,aA);if(h)return fY(n,c,l,b,i,t,o,f[2],a,d,az);var
+e=ou(jV,t,d);if(e){var
+f=ds(aB,g),h=fZ(n,c,l,b,i,t,o,f[1],a,d,aA);if(h)return fZ(n,c,l,b,i,t,o,f[2],a,d,az);var
 j=h}else
 var
 j=e;return j},T=aC,A=r[1]}if(A){var
-w=jO(n,c,g,bD(y(function(e){var
+w=jQ(n,c,g,bC(x(function(e){var
 a=e[2],d=0;if(typeof
 a==="number"){if(4!==a)d=1}else
 if(11!==a[0])d=1;if(d){var
@@ -3383,7 +3398,7 @@ am=E[1],al=a4(f(a)),Q=k(function(b){return function(a){return I(aq(a,b)[2],e)}}(
 var
 Q=E;if(Q){var
 z=af,v=d(function(a){return 0},v);continue}var
-x=Q}else
+y=Q}else
 ak=1;if(ak){var
 ag=q(P,v,0);if(ag){var
 S=F(t,P);if(S){var
@@ -3391,34 +3406,34 @@ p=S[1],U=0;if(typeof
 j==="number")U=1;else
 switch(j[0]){case
 11:var
-X=j[3],G=j[1],Y=hC(c,l,b,i,g,p,G,j[2]);if(Y)var
-ap=hD(n,c,l,b,i,g,G,a,p,X),s=om(n,c,l,b,i,bA(eW,G,g),o,ap,a,p,X);else
+X=j[3],G=j[1],Y=hD(c,l,b,i,g,p,G,j[2]);if(Y)var
+ap=hE(n,c,l,b,i,g,G,a,p,X),s=oo(n,c,l,b,i,bz(eW,G,g),o,ap,a,p,X);else
 var
 s=Y;break;case
 12:var
-H=j[1],Z=L(m(f(H),0));if(Z){var
-_=L(hy(j));if(_)var
+H=j[1],Z=J(m(f(H),0));if(Z){var
+_=J(hz(j));if(_)var
 B=_;else
 var
 as=1<p[0]?0:1,B=as}else
 var
 B=Z;if(B)var
-ar=M(jF(d(function(a){return a[1][1][1]},H)),H),s=k(function(C,f){return function(t){var
-u=t[2],e=t[1],v=hy(C),j=u[1],k=j[1][2],m=j[2],d=u[2],p=v?b:l;function
-q(a){return v?hz(a):a}if(typeof
+ar=M(jG(d(function(a){return a[1][1][1]},H)),H),s=k(function(C,f){return function(t){var
+u=t[2],e=t[1],v=hz(C),j=u[1],k=j[1][2],m=j[2],d=u[2],p=v?b:l;function
+q(a){return v?hA(a):a}if(typeof
 d!=="number"&&11===d[0]){var
-r=d[3],h=d[1],s=hC(c,l,b,i,g,f,h,d[2]);if(s){var
-y=q(r),z=e[2],A=e[1],B=hD(n,c,l,b,i,g,h,a,f,r);return oh(n,c,p,b,i,bA(eW,h,g),o,B,a,f,A,z,k,m,y)}return s}var
-x=q(d);return oh(n,c,p,b,i,g,o,w,a,f,e[1],e[2],k,m,x)}}(j,p),ar);else
+r=d[3],h=d[1],s=hD(c,l,b,i,g,f,h,d[2]);if(s){var
+y=q(r),z=e[2],A=e[1],B=hE(n,c,l,b,i,g,h,a,f,r);return oj(n,c,p,b,i,bz(eW,h,g),o,B,a,f,A,z,k,m,y)}return s}var
+x=q(d);return oj(n,c,p,b,i,g,o,w,a,f,e[1],e[2],k,m,x)}}(j,p),ar);else
 var
 s=B;break;case
 13:var
-J=j[5],K=j[4],C=j[3],D=j[1];if(2===p[0]){var
-$=p[1],u=jR(n,D,j[2]);if(C){var
-at=hm(u,R(jM(D,g,C))),aa=hl(f(a),at);if(aa){var
-V=oq(K);if(V){var
-W=oq(J);if(W)var
-an=W[1],ao=V[1],N=op(function(a,b){return op(m,a,b)},ao,an);else
+K=j[5],L=j[4],C=j[3],D=j[1];if(2===p[0]){var
+$=p[1],u=jT(n,D,j[2]);if(C){var
+at=hn(u,R(jN(D,g,C))),aa=hm(f(a),at);if(aa){var
+V=os(L);if(V){var
+W=os(K);if(W)var
+an=W[1],ao=V[1],N=or(function(a,b){return or(m,a,b)},ao,an);else
 var
 N=1}else
 var
@@ -3426,50 +3441,50 @@ N=1;var
 O=N}else
 var
 O=aa;var
-ab=O?or(n,c,l,b,i,g,o,w,a,p,0,u,D,C,K):O,s=ab?or(n,c,l,b,i,g,o,w,a,p,[0,$],u,D,C,J):ab}else
+ab=O?ot(n,c,l,b,i,g,o,w,a,p,0,u,D,C,L):O,s=ab?ot(n,c,l,b,i,g,o,w,a,p,[0,$],u,D,C,K):ab}else
 var
-ac=hl(f(a),u),ad=ac?oo(n,c,l,b,i,g,o,w,a,p,0,u,K):ac,s=ad?oo(n,c,l,b,i,g,o,w,a,p,[0,$],u,J):ad}else
+ac=hm(f(a),u),ad=ac?oq(n,c,l,b,i,g,o,w,a,p,0,u,L):ac,s=ad?oq(n,c,l,b,i,g,o,w,a,p,[0,$],u,K):ad}else
 var
 s=0;break;default:U=1}if(U)var
-s=om(n,c,l,b,i,g,o,w,a,p,j);if(s){var
-z=af,v=hE(P,v);continue}var
+s=oo(n,c,l,b,i,g,o,w,a,p,j);if(s){var
+z=af,v=hF(P,v);continue}var
 ah=s}else
 var
 ah=S;var
 ai=ah}else
 var
 ai=ag;var
-x=ai}}else
+y=ai}}else
 var
-x=[0,v];break}}else
+y=[0,v];break}}else
 var
-x=[0,aj];return x?T(x[1]):x}function
-jU(h,g,f,e,d,c,b,a){return function(i,j,k){return fY(h,g,f,e,d,b,a,c,i,j,k)}}function
-jV(a){return d(function(a){return 1},a)}function
+y=[0,aj];return y?T(y[1]):y}function
+jW(h,g,f,e,d,c,b,a){return function(i,j,k){return fZ(h,g,f,e,d,b,a,c,i,j,k)}}function
+jX(a){return d(function(a){return 1},a)}function
 e0(a,e,b,c){function
 f(e,c){var
 f=M(a[1],b[1]);return d(function(a){var
 b=u(c,a[2]);return C(u(e,a[1]),b)},f)}if(a3(a[2],b[2])){var
 g=a[2];return[0,f(e,c),g]}var
 h=u(a[2],b[2]),i=u(c,a[2]);return[0,f(u(e,b[2]),i),h]}function
-ot(b){var
+ov(b){var
 c=n(a);return[0,d(function(a){return n(e)},b),c]}function
 bh(b,l){var
 f=l[1];switch(f[0]){case
 1:var
 t=f[1];if(ag(function(a){return m(t,a)},b)){var
 C=n(a);return[0,d(function(b){var
-c=m(b,t)?a:e;return n(c)},b),C]}return ot(b);case
+c=m(b,t)?a:e;return n(c)},b),C]}return ov(b);case
 3:var
 D=n(a),E=bh(b,f[2]),F=n(a);return e0(bh(b,f[1]),F,E,D);case
 4:var
 G=n(W(a)),H=bh(b,f[2]),I=n(a);return e0(bh(b,f[1]),I,H,G);case
 5:var
-v=bh(b,f[1]),J=v[2];return[0,d(bC,v[1]),J];case
+v=bh(b,f[1]),J=v[2];return[0,d(bB,v[1]),J];case
 6:var
 w=f[2],x=f[1],K=bh(b,w);return e0(bh(b,x),w,K,x);case
 7:var
-y=f[2],L=bC(l),M=bh(b,y),N=n(a),i=e0(bh(b,f[1]),N,M,L),O=i[1];if(k(function(a){return bf(e,a)},O))return i;var
+y=f[2],L=bB(l),M=bh(b,y),N=n(a),i=e0(bh(b,f[1]),N,M,L),O=i[1];if(k(function(a){return bf(e,a)},O))return i;var
 P=u(i[2],y);return[0,i[1],P];case
 8:var
 z=f[1],B=bh(b,z),Q=B[2],R=B[1],S=u(n(c(2,a)),z);return[0,d(function(a){return u(S,a)},R),Q];case
@@ -3478,11 +3493,11 @@ j=bh(b,f[1]),T=j[1];if(k(function(a){return bf(e,a)},T)){var
 U=n(a);return[0,j[1],U]}var
 V=u(n(c(2,a)),l),X=u(j[2],V);return[0,j[1],X];case
 10:var
-o=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,o]],q=[0,[10,1,h,g,o]],Y=A(g,q),Z=bh(b,g),_=A(h,p),$=e0(bh(b,h),_,Z,Y),aa=n(W(a)),ab=bh(b,o),r=e0($,n(c(2,a)),ab,aa),ac=r[1],ad=f[1]?p:bC(q),s=d(function(a){return u(ad,a)},ac);if(k(function(a){return bf(e,a)},s))return[0,s,r[2]];var
-ae=u(h,q),af=A(u(g,p),ae),ah=u(n(c(2,a)),af);return[0,s,u(r[2],ah)];default:return ot(b)}}function
-hF(c,a){var
-b=bh(c,a),f=b[1];return d(function(a){return bf(e,a)?a:ak(a,b[2])},f)}function
-ou(g){var
+o=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,o]],q=[0,[10,1,h,g,o]],Y=A(g,q),Z=bh(b,g),_=A(h,p),$=e0(bh(b,h),_,Z,Y),aa=n(W(a)),ab=bh(b,o),r=e0($,n(c(2,a)),ab,aa),ac=r[1],ad=f[1]?p:bB(q),s=d(function(a){return u(ad,a)},ac);if(k(function(a){return bf(e,a)},s))return[0,s,r[2]];var
+ae=u(h,q),af=A(u(g,p),ae),ah=u(n(c(2,a)),af);return[0,s,u(r[2],ah)];default:return ov(b)}}function
+hG(c,a){var
+b=bh(c,a),f=b[1];return d(function(a){return bf(e,a)?a:aj(a,b[2])},f)}function
+ow(g){var
 h=g[1],c=h[2],d=h[1];if(0===d[0]){var
 i=d[2],b=d[1];if(D(i,a)){if(0===c[0]){var
 j=c[2],m=c[1];if(D(j,a)){var
@@ -3490,31 +3505,31 @@ k=H(b,m),l=k?fJ(b):k;if(l)var
 n=H(g[2],e),f=n||H(b,e);else
 var
 f=l;var
-o=f?[0,b]:f;return o}return H(a2(j,aS(2))[2],e)?0:0}return 0}return H(a2(i,aS(2))[2],e)?0:0}return 0}function
-bU(c,b){var
-a=ou(c);return a?n(a[1]):[0,[1,b]]}function
-cx(b,a){if(a)var
-d=cx([0,b],a[2]),c=[0,bU(a[1],b),d];else
+o=f?[0,b]:f;return o}return H(a2(j,aT(2))[2],e)?0:0}return 0}return H(a2(i,aT(2))[2],e)?0:0}return 0}function
+bV(c,b){var
+a=ow(c);return a?n(a[1]):[0,[1,b]]}function
+cy(b,a){if(a)var
+d=cy([0,b],a[2]),c=[0,bV(a[1],b),d];else
 var
 c=a;return c}function
 bi(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-hG(b,d,a){switch(a[0]){case
+hH(b,d,a){switch(a[0]){case
 0:var
 c=a[1],f=[0,[0,c[4],b],0],h=g(bi(c[3],b),f),i=g(bi(c[2],b),h);return g(bi(c[1],d),i);case
 1:var
 e=a[3],j=e?bi(e[1],d):e,k=g(bi(a[2],b),j);return g(bi(a[1],b),k);default:return bi(a[1],d)}}function
 ar(b,a){var
-c=n(e),d=q(P(vW,a),b,c),f=n(e),g=q(P(vX,a),b,f);return[0,q(a,b,n(e)),g,d]}function
-ov(b,a){return ah(A,ah(C,dY,a),b)}function
-hH(c,b,a){if(a){var
-d=a[2],f=hH(c,bp(b),d),h=a[1];return g(hG(c,bz(e,b),h),f)}return a}function
-jW(g,d,c,j){if(c){var
-b=c[1],v=P(j,f(hG(g,bz(e,d),b))),w=c[2],x=jW(g,bp(d),w,v),a=cx(j,hG(g,bz(e,d),b));switch(b[0]){case
+c=n(e),d=q(P(v0,a),b,c),f=n(e),g=q(P(v1,a),b,f);return[0,q(a,b,n(e)),g,d]}function
+ox(b,a){return ah(A,ah(C,dZ,a),b)}function
+hI(c,b,a){if(a){var
+d=a[2],f=hI(c,by(b),d),h=a[1];return g(hH(c,bH(e,b),h),f)}return a}function
+jY(g,d,c,j){if(c){var
+b=c[1],v=P(j,f(hH(g,bH(e,d),b))),w=c[2],x=jY(g,by(d),w,v),a=cy(j,hH(g,bH(e,d),b));switch(b[0]){case
 0:var
-l=b[1][5],m=q(vY,a,n(e)),o=ah(C,dY,ar(a,vZ)),p=dX(ar(a,0)),r=ar(a,v0),h=ns(ov(ar(a,v1),r),p,o,m,l);break;case
+l=b[1][5],m=q(v2,a,n(e)),o=ah(C,dZ,ar(a,v3)),p=dY(ar(a,0)),r=ar(a,v4),h=nu(ox(ar(a,v5),r),p,o,m,l);break;case
 1:var
-i=b[3],s=i?[0,dX(ar(a,v2))]:i,t=ah(C,dY,ar(a,v3)),u=ar(a,v4),h=nt(ov(ar(a,0),u),t,s);break;default:var
-h=nu(dY,dX(ar(a,0)))}var
+i=b[3],s=i?[0,dY(ar(a,v6))]:i,t=ah(C,dZ,ar(a,v7)),u=ar(a,v8),h=nv(ox(ar(a,0),u),t,s);break;default:var
+h=nw(dZ,dY(ar(a,0)))}var
 k=[0,h,x]}else
 var
 k=c;return k}function
@@ -3544,34 +3559,34 @@ f=[5,[0,a,a],b[1]];return[0,[0,f,f],e];case
 i=b[1];return[0,[0,i,i],e];default:var
 g=b[2];return[0,[0,g,g],c]}var
 d=[0,e,a];return[0,[0,d,d],e]}function
-fZ(b,a){var
+f0(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
 e1(c,b){if(0===b[0]){var
-d=[0,e,a],i=g(fZ(c,b[5]),[0,[0,[0,d,d],e],0]),f=b[4],h=b[3];return g([0,[0,[0,h,h],c],[0,[0,[0,f,f],c],0]],i)}var
-j=fZ(c,b[3]);return g(fZ(c,b[2]),j)}function
+d=[0,e,a],i=g(f0(c,b[5]),[0,[0,[0,d,d],e],0]),f=b[4],h=b[3];return g([0,[0,[0,h,h],c],[0,[0,[0,f,f],c],0]],i)}var
+j=f0(c,b[3]);return g(f0(c,b[2]),j)}function
 d4(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
 h=e1(b,a[2]);return g(e1(b,a[1]),h);case
 11:var
-i=fZ(b,a[3]);return g(fZ(b,a[2]),i);case
+i=f0(b,a[3]);return g(f0(b,a[2]),i);case
 12:var
 c=a[3],f=[5,[4,c,c],a[4]];return[0,[0,[0,f,f],b],0];case
 15:var
 j=a[2],k=a[1];return d(function(b){var
 a=[5,j,b];return[0,[0,a,a],e]},k)}return 0}function
-ow(c,b,a){var
+oy(c,b,a){var
 d=f(d4(c,b)),e=P(a[2],d);return[0,[0,a[1]],e]}function
-jX(c,b){if(a3(b,c))return[0,n(e)];var
+jZ(c,b){if(a3(b,c))return[0,n(e)];var
 a=b[1];if(4===a[0]){var
 d=a3(a[1],c),f=d?[0,a[2]]:d;return f}return 0}function
-ox(x,p,b,o){switch(o[0]){case
+oz(x,p,b,o){switch(o[0]){case
 0:var
 i=F(x,o[1]);if(i){var
 j=i[1];if(j){var
-r=j[1],s=r[1],c=s[2],d=s[1],t=r[2],y=ar(b,v5),z=ah(C,ah(A,d,a$(ak(q(v6,b,n(e)),t),c)),y),B=ar(b,v7),f=ak(q(0,b,n(e)),t),k=jX(d[1],c[1]);if(k){var
-l=jX(d[2],c[2]);if(l){var
-m=jX(d[3],c[3]);if(m)var
+r=j[1],s=r[1],c=s[2],d=s[1],t=r[2],y=ar(b,v9),z=ah(C,ah(A,d,a$(aj(q(v_,b,n(e)),t),c)),y),B=ar(b,v$),f=aj(q(0,b,n(e)),t),k=jZ(d[1],c[1]);if(k){var
+l=jZ(d[2],c[2]);if(l){var
+m=jZ(d[3],c[3]);if(m)var
 w=a$(f,c),g=ah(C,[0,k[1],l[1],m[1]],w);else
 var
 g=ah(A,d,a$(A(n(a),f),c))}else
@@ -3586,49 +3601,49 @@ v=u}else
 var
 v=i;return v;case
 1:var
-D=ar(b,v8);return[0,[0,ar(b,0),D]];default:var
-E=h(p,ar(b,v9));return[0,[0,h(p,ar(b,0)),E]]}}function
-oy(e,d,c,h,g){var
-a=ox(e,d,ap(v_,c),h);if(a)var
-b=ox(e,d,aw(v$,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
+D=ar(b,wa);return[0,[0,ar(b,0),D]];default:var
+E=h(p,ar(b,wb));return[0,[0,h(p,ar(b,0)),E]]}}function
+oA(e,d,c,h,g){var
+a=oz(e,d,ao(wc,c),h);if(a)var
+b=oz(e,d,aw(wd,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
 var
 f=a;return f}function
-oz(f,c,e,b,a){var
-h=e1(c,a),i=cx(e,g(e1(c,b),h));function
-j(a){return ah(C,dY,a)}return oy(d(function(a){var
-b=a[7];return x(function(b){var
+oB(f,c,e,b,a){var
+h=e1(c,a),i=cy(e,g(e1(c,b),h));function
+j(a){return ah(C,dZ,a)}return oA(d(function(a){var
+b=a[7];return y(function(b){var
 c=dr(a);return[0,[0,b,a[1]],c]},b)},f),j,i,b,a)}function
 d5(d,c,b,a){var
 e=u(c,b);return A(u(d,a),e)}function
-bK(a){return y(function(a){return g(a[1],[0,a[2],0])},a)}function
-oA(b,a){if(b)if(a)var
-d=b[1],e=oA(b[2],a[2]),f=u(d[2],a[1]),c=[0,[0,bS(d[1]),f],e];else
+bK(a){return x(function(a){return g(a[1],[0,a[2],0])},a)}function
+oC(b,a){if(b)if(a)var
+d=b[1],e=oC(b[2],a[2]),f=u(d[2],a[1]),c=[0,[0,bT(d[1]),f],e];else
 var
 c=a;else
 var
 c=b;return c}function
-oB(a){if(a){var
+oD(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=oB(a[2]);if(d)var
-g=d[1],h=ac(c,c),e=[0,[0,[0,bS(c),h],g]];else
+c=b[1],d=oD(a[2]);if(d)var
+g=d[1],h=ac(c,c),e=[0,[0,[0,bT(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return wb}function
-f0(b,e,c,a){if(typeof
+f=b;return f}return wf}function
+f1(b,e,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-i=c[1],j=bU(ca(e,a),i);return[0,d(function(a){var
-b=u(a[2],j);return[0,bS(a[1]),b]},b)];case
-9:return oB(b);case
+i=c[1],j=bV(ca(e,a),i);return[0,d(function(a){var
+b=u(a[2],j);return[0,bT(a[1]),b]},b)];case
+9:return oD(b);case
 15:var
 k=f(b),g=m(f(a[1]),k);if(g)var
-l=d4(e,a),h=[0,oA(b,cx(c[2],l))];else
+l=d4(e,a),h=[0,oC(b,cy(c[2],l))];else
 var
 h=g;return h}return 0}function
-hI(d,k,j,b){var
-P=j[1],c=bU(ca(k,b),P),t=0;if(typeof
+hJ(d,k,j,b){var
+P=j[1],c=bV(ca(k,b),P),t=0;if(typeof
 b==="number")t=1;else
 switch(b[0]){case
 2:var
@@ -3647,7 +3662,7 @@ d=a;return d},g=T,f=b[1];break;case
 7:if(d){var
 l=d[2];if(l){var
 m=l[2];if(m){if(m[2])return 0;var
-w=m[1],x=l[1],z=d[1],h=w[1],i=x[1],p=z[1],K=d5(i[1],i[2],h[1],h[2]),L=u(p[3],K),M=d5(i[1],i[3],h[1],h[3]),N=u(p[2],M),O=d5(i[2],i[3],h[2],h[3]),v=C(A(u(p[1],O),N),L),U=dr(w),V=dr(x),B=u(u(u(c,dr(z)),V),U),W=[0,bC(C(v,B)),0],D=[0,A(v,B),W]}else
+w=m[1],y=l[1],z=d[1],h=w[1],i=y[1],p=z[1],K=d5(i[1],i[2],h[1],h[2]),L=u(p[3],K),M=d5(i[1],i[3],h[1],h[3]),N=u(p[2],M),O=d5(i[2],i[3],h[2],h[3]),v=C(A(u(p[1],O),N),L),U=dr(w),V=dr(y),B=u(u(u(c,dr(z)),V),U),W=[0,bB(C(v,B)),0],D=[0,A(v,B),W]}else
 var
 D=m;var
 E=D}else
@@ -3657,78 +3672,78 @@ G=E}else
 var
 G=d;return G;case
 10:var
-s=oz(d,k,j[2],b[1],b[2]);if(s){var
-H=s[1],I=H[2],J=H[1];return y(bS,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return s;case
+s=oB(d,k,j[2],b[1],b[2]);if(s){var
+H=s[1],I=H[2],J=H[1];return x(bT,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return s;case
 11:var
 X=function(d){var
 e=d[7];if(e)var
-n=d4(k,b),f=cx(j[2],n),h=ar(f,wa),a=ah(A,ar(f,0),h),i=_(c),l=_(dr(d)),m=ak(_(ac(a,d[1])),l),g=[0,A(A(ac(a,a),m),i),0];else
+n=d4(k,b),f=cy(j[2],n),h=ar(f,we),a=ah(A,ar(f,0),h),i=_(c),l=_(dr(d)),m=aj(_(ac(a,d[1])),l),g=[0,A(A(ac(a,a),m),i),0];else
 var
 g=e;return g},g=X,f=b[1];break;case
 12:var
 Y=function(d){var
-p=n(e),r=d4(k,b),s=q(0,cx(j[2],r),p),f=ak(s,dr(d)),g=d[5];if(g){var
-l=aQ(d[2]),h=ak(g[1],l),m=u(h,C(c,u(f,_(h))));return[0,A(n(a),m),0]}var
+p=n(e),r=d4(k,b),s=q(0,cy(j[2],r),p),f=aj(s,dr(d)),g=d[5];if(g){var
+l=aR(d[2]),h=aj(g[1],l),m=u(h,C(c,u(f,_(h))));return[0,A(n(a),m),0]}var
 i=d[7],o=i?[0,A(A(n(a),c),f),0]:i;return o},g=Y,f=b[1];break;case
 8:case
 9:case
 15:var
-r=f0(d,k,j,b);return r?bK(r[1]):r;default:t=1}if(t)return 0;var
+r=f1(d,k,j,b);return r?bK(r[1]):r;default:t=1}if(t)return 0;var
 o=F(d,f);return o?g(o[1]):o}function
-jY(d,b,c,a){if(a){var
-e=a[1],f=a[2],h=jY(d,b,ow(b,e,c),f);return g(hI(d,b,c,e),h)}return a}var
-oC=[0,e,a],oD=[0,[0,oC,oC],e];function
-jZ(a){return L(ct(a[1][1],a[1][2]))}function
-hJ(a){var
-b=ax(0,f(a));return aP(function(b){return jZ(q(b,a,oD))},b)}function
-j0(b,a){var
-c=M(hJ(b),a);return aP(function(a){return L(bf(e,a[2]))},c)}function
-f1(a,b){return j0(a,hF(hJ(a),b))}function
-oE(b,a){var
+j0(d,b,c,a){if(a){var
+e=a[1],f=a[2],h=j0(d,b,oy(b,e,c),f);return g(hJ(d,b,c,e),h)}return a}var
+oE=[0,e,a],oF=[0,[0,oE,oE],e];function
+j1(a){return J(cu(a[1][1],a[1][2]))}function
+hK(a){var
+b=ax(0,f(a));return aN(function(b){return j1(q(b,a,oF))},b)}function
+j2(b,a){var
+c=M(hK(b),a);return aN(function(a){return J(bf(e,a[2]))},c)}function
+f2(a,b){return j2(a,hG(hK(a),b))}function
+oG(b,a){var
 c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]}function
-oF(m,l,k,j,i,b){return ad(d(function(e){var
-b=q(e[1],k,oD),f=aX(b[2],j),g=[4,[0,c(2,a),a],i],d=[5,[3,b[1][2],b[1][1]],g],n=av(m,[0,[0,d,d],f]);return x(function(a){return[0,a,h(l,e[2])]},n)},b))}function
-oG(f,e,a,d,c,b){return oF(f,e,a,d,c,f1(a,b))}function
-j1(g,f,n,m,l,d,c){var
+oH(m,l,k,j,i,b){return ad(d(function(e){var
+b=q(e[1],k,oF),f=aX(b[2],j),g=[4,[0,c(2,a),a],i],d=[5,[3,b[1][2],b[1][1]],g],n=av(m,[0,[0,d,d],f]);return y(function(a){return[0,a,h(l,e[2])]},n)},b))}function
+oI(f,e,a,d,c,b){return oH(f,e,a,d,c,f2(a,b))}function
+j3(g,f,n,m,l,d,c){var
 i=[5,l,d],a=av(g,[0,[0,i,i],e]);if(a){var
-b=oG(g,f,n,m,d,c);if(b)var
+b=oI(g,f,n,m,d,c);if(b)var
 o=[0,a[1],b[1]],j=[0,[0,h(f,c),o]];else
 var
 j=b;var
 k=j}else
 var
 k=a;return k}function
-oH(c,G,n,al,l,j,o,s){if(s){var
-b=s[1],aH=s[2],aI=oH(c,G,n,al,l,j,ow(j,b,o),aH);if(typeof
+oJ(c,G,n,al,l,j,o,s){if(s){var
+b=s[1],aH=s[2],aI=oJ(c,G,n,al,l,j,oy(j,b,o),aH);if(typeof
 b==="number")if(0===b)var
 g=[0,[0,t]];else
 var
 an=G[2],ao=G[1],ap=fO(l),g=[0,[8,h(aC(n),ap),ao,an]];else
 switch(b[0]){case
 0:var
-aq=av(c,ca(j,b)),g=x(function(a){return[0,Q(c,a)]},aq);break;case
+aq=av(c,ca(j,b)),g=y(function(a){return[0,Q(c,a)]},aq);break;case
 1:var
-ar=av(c,ca(j,b)),g=x(function(a){return[1,Q(c,a)]},ar);break;case
+ar=av(c,ca(j,b)),g=y(function(a){return[1,Q(c,a)]},ar);break;case
 5:var
-at=av(c,ca(j,b)),g=x(function(a){return[2,Q(c,a)]},at);break;case
+at=av(c,ca(j,b)),g=y(function(a){return[2,Q(c,a)]},at);break;case
 8:var
-au=f0(l,j,o,b),g=x(function(b){var
-d=J(c,a);return[4,h(aC(n),b),d]},au);break;case
+au=f1(l,j,o,b),g=y(function(b){var
+d=K(c,a);return[4,h(aC(n),b),d]},au);break;case
 9:var
-w=f0(l,j,o,b);if(w){var
-y=av(c,ca(j,b));if(y)var
-aw=Q(c,y[1]),ax=w[1],M=[0,[4,h(aC(n),ax),aw]];else
+w=f1(l,j,o,b);if(w){var
+x=av(c,ca(j,b));if(x)var
+aw=Q(c,x[1]),ax=w[1],M=[0,[4,h(aC(n),ax),aw]];else
 var
-M=y;var
+M=x;var
 N=M}else
 var
 N=w;var
 g=N;break;case
 10:var
-z=oz(l,j,o[2],b[1],b[2]);if(z){var
+z=oB(l,j,o[2],b[1],b[2]);if(z){var
 O=z[1],P=O[2],R=O[1],A=av(c,ca(j,b));if(A){var
 S=A[1],T=D(e,S[1]);if(T)var
-q=function(a){return oE(n,a)},ay=q(P[2]),az=q(P[1]),aA=q(R[2]),U=[0,[6,q(R[1]),aA,az,ay,S]];else
+q=function(a){return oG(n,a)},ay=q(P[2]),az=q(P[1]),aA=q(R[2]),U=[0,[6,q(R[1]),aA,az,ay,S]];else
 var
 U=T;var
 V=U}else
@@ -3739,7 +3754,7 @@ var
 W=z;var
 g=W;break;case
 12:var
-r=hI(l,j,o,b),u=0;if(r)if(r[2])var
+r=hJ(l,j,o,b),u=0;if(r)if(r[2])var
 g=0;else{var
 X=i(c,0,b[2]),Y=X?i(c,1,b[4]):X;if(Y){var
 B=[0,[3,h(n,r[1])]];u=1}else{var
@@ -3749,14 +3764,14 @@ g=B;break;case
 13:var
 Z=b[1],_=F(l,Z),H=0;if(_){var
 $=i(c,1,b[2]),aa=$?i(c,1,b[3]):$;if(aa)var
-aB=av(c,ca(j,b)),g=x(function(a){return[7,Z,Q(c,a)]},aB);else{var
+aB=av(c,ca(j,b)),g=y(function(a){return[7,Z,Q(c,a)]},aB);else{var
 ab=aa;H=1}}else{var
 ab=_;H=1}if(H)var
 g=ab;break;case
 14:var
-ac=b[2],ae=b[1],af=m(f(l),wc),ag=af?i(c,0,ae):af,ah=ag?i(c,1,ac):ag;if(ah){var
+ac=b[2],ae=b[1],af=m(f(l),wg),ag=af?i(c,0,ae):af,ah=ag?i(c,1,ac):ag;if(ah){var
 C=av(c,ca(j,b));if(C)var
-E=ad(d(function(a){return j1(c,n,al,j,ae,ac,a[4])},l)),aD=E?[0,[9,C[1],E[1]]]:E,ai=aD;else
+E=ad(d(function(a){return j3(c,n,al,j,ae,ac,a[4])},l)),aD=E?[0,[9,C[1],E[1]]]:E,ai=aD;else
 var
 ai=C;var
 aj=ai}else
@@ -3765,34 +3780,34 @@ aj=ah;var
 g=aj;break;case
 15:var
 aE=[0,b[2],b[1]],aF=1,ak=k(function(a){return i(c,aF,a)},aE);if(ak)var
-aG=f0(l,j,o,b),g=x(function(b){var
-d=J(c,a);return[4,h(aC(n),b),d]},aG);else
+aG=f1(l,j,o,b),g=y(function(b){var
+d=K(c,a);return[4,h(aC(n),b),d]},aG);else
 var
 g=ak;break;default:var
-p=hI(l,j,o,b),I=0;if(p){var
-v=p[2],K=p[1];if(v)if(v[2])var
+p=hJ(l,j,o,b),I=0;if(p){var
+v=p[2],J=p[1];if(v)if(v[2])var
 g=0;else
 var
-as=h(n,v[1]),g=[0,[5,h(n,K),as]];else{var
-L=[0,[3,h(n,K)]];I=1}}else{var
+as=h(n,v[1]),g=[0,[5,h(n,J),as]];else{var
+L=[0,[3,h(n,J)]];I=1}}else{var
 L=p;I=1}if(I)var
 g=L}var
 am=[0,g,aI]}else
 var
 am=s;return am}function
-wd(a){var
+wh(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
 e2(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-oI(a,c,g,b){if(0===c[0])return 0;if(b){var
+oK(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
 e=d[1],f=b[1],i=dp(a,g,c[1]);if(i){var
 j=dp(a,g,c[2]);if(j){var
 k=dp(a,g,c[3]);if(k)var
-v=i[1],x=cv(f),l=B([0,cv(f),x],v),y=j[1],z=cv(e),m=B([0,cv(e),z],y),A=eS(e),C=[0,eS(e),A],D=[0,r(a,N(w(m,m)),C),0],E=eS(f),F=[0,eS(f),E],G=[0,r(a,N(w(l,l)),F),D],H=Q(a,m),I=Q(a,l),n=[0,[0,B(B(Q(a,k[1]),I),H),t,G]];else
+v=i[1],x=cw(f),l=B([0,cw(f),x],v),y=j[1],z=cw(e),m=B([0,cw(e),z],y),A=eS(e),C=[0,eS(e),A],D=[0,r(a,N(w(m,m)),C),0],E=eS(f),F=[0,eS(f),E],G=[0,r(a,N(w(l,l)),F),D],H=Q(a,m),I=Q(a,l),n=[0,[0,B(B(Q(a,k[1]),I),H),t,G]];else
 var
 n=k;var
 o=n}else
@@ -3810,7 +3825,7 @@ s=d;var
 u=s}else
 var
 u=b;return u}function
-hK(a,p,o){var
+hL(a,p,o){var
 q=bi(p,o),b=d(function(b){return av(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
@@ -3837,31 +3852,31 @@ O(c,b,a){var
 d=au(c,b[3],a[3]),e=au(c,b[2],a[2]);return[0,au(c,b[1],a[1]),e,d]}function
 T(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
 v(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
-aG(b){return T([5,[0,a,a],[6,v(b,b)]],b)}function
-dw(c,b,a){var
+aH(b){return T([5,[0,a,a],[6,v(b,b)]],b)}function
+dx(c,b,a){var
 d=bI(c,b[1],a);return d?bI(c,a,b[2]):d}function
-bE(c,b,a){var
-d=dw(c,b[1],a[1]),e=d?dw(c,b[2],a[2]):d;return e?dw(c,b[3],a[3]):e}function
-oJ(b,c,a){switch(c[0]){case
+bD(c,b,a){var
+d=dx(c,b[1],a[1]),e=d?dx(c,b[2],a[2]):d;return e?dx(c,b[3],a[3]):e}function
+oL(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
-j=a[4],f=a[1],k=bE(b,d[1],f),l=k?i(b,1,v(f,f)):k,m=l?bE(b,d[2],a[2]):l,n=m?bE(b,d[3],a[3]):m,o=n?dw(b,d[4],j):n,p=o?i(b,1,j):o;return p?cN(d[5],a[5]):p}return 0;case
+j=a[4],f=a[1],k=bD(b,d[1],f),l=k?i(b,1,v(f,f)):k,m=l?bD(b,d[2],a[2]):l,n=m?bD(b,d[3],a[3]):m,o=n?dx(b,d[4],j):n,p=o?i(b,1,j):o;return p?cp(d[5],a[5]):p}return 0;case
 1:var
 q=c[3];if(1===a[0]){var
-e=a[3],r=bE(b,c[1],a[1]),s=r?bE(b,c[2],a[2]):r;if(s){if(q){if(e){var
-g=e[1],t=bE(b,q[1],g);if(t)return i(b,1,v(g,g));var
+e=a[3],r=bD(b,c[1],a[1]),s=r?bD(b,c[2],a[2]):r;if(s){if(q){if(e){var
+g=e[1],t=bD(b,q[1],g);if(t)return i(b,1,v(g,g));var
 u=t}else
 var
 u=e;return u}if(e)return 0;var
 w=1}else
 var
 w=s;return w}return 0;default:if(2===a[0]){var
-h=a[1],x=bE(b,c[1],h);return x?i(b,1,v(h,h)):x}return 0}}function
-c2(c,a,b){if(0===a[0])return bE(c,a[1],b);var
-d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=i(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),h=g?i(c,0,d):g;return h?dw(c,a[4],b[3]):h}function
-f2(g,f,i,h){var
+h=a[1],x=bD(b,c[1],h);return x?i(b,1,v(h,h)):x}return 0}}function
+c2(c,a,b){if(0===a[0])return bD(c,a[1],b);var
+d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=i(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),h=g?i(c,0,d):g;return h?dx(c,a[4],b[3]):h}function
+f3(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=oJ(g,b[1],a[1]);if(d){var
+d=oL(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
@@ -3872,94 +3887,94 @@ c=a?0:1;return c?c2(g,f[2],h):c}}function
 aW(c,b,a){var
 d=O(function(b,a){return[2,b,a]},a,b);return O(function(b,a){return[3,b,a]},d,c)}function
 d6(a,e,d,c){var
-b=aW(e,d,c),f=aG(a),g=T(v(aG(a),b),f);return O(function(b,a){return[3,b,a]},b,g)}function
+b=aW(e,d,c),f=aH(a),g=T(v(aH(a),b),f);return O(function(b,a){return[3,b,a]},b,g)}function
 cb(f,e,d,a,c){var
 b=d6(f,e,d,c);return[3,[4,a,a],v(b,b)]}function
-cy(c,b){return c?[6,b]:[3,[0,e,a],[6,b]]}function
+cz(c,b){return c?[6,b]:[3,[0,e,a],[6,b]]}function
 cc(b,c){switch(b[0]){case
 0:var
-e=b[3],f=b[2],d=b[1],g=d6(d,f,e,c),h=cb(d,f,e,b[4],c),i=T([5,[0,a,a],cy(b[5],h)],g),j=aG(d);return O(function(b,a){return[2,b,a]},j,i);case
-1:return aG(aW(b[1],b[2],c));default:return aG(b[1])}}function
+e=b[3],f=b[2],d=b[1],g=d6(d,f,e,c),h=cb(d,f,e,b[4],c),i=T([5,[0,a,a],cz(b[5],h)],g),j=aH(d);return O(function(b,a){return[2,b,a]},j,i);case
+1:return aH(aW(b[1],b[2],c));default:return aH(b[1])}}function
 bL(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=aG(c),g=cb(c,e,d,a[4],b),h=T(cy(a[5],g),f),i=d6(c,e,d,b);return O(function(b,a){return[2,b,a]},i,h);case
-1:return aW(a[1],a[2],b);default:return aG(a[1])}}function
+d=a[3],e=a[2],c=a[1],f=aH(c),g=cb(c,e,d,a[4],b),h=T(cz(a[5],g),f),i=d6(c,e,d,b);return O(function(b,a){return[2,b,a]},i,h);case
+1:return aW(a[1],a[2],b);default:return aH(a[1])}}function
 c3(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cb(e,d,c,a[4],b),i=cy(a[5],h),j=aW(d,c,b);return[3,v(aG(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cb(e,d,c,a[4],b),i=cz(a[5],h),j=aW(d,c,b);return[3,v(aH(e),j),i];case
 1:var
-f=a[2],g=a[1],k=aW(g,f,b);return[6,v(aW(g,f,b),k)];default:return v(aG(a[1]),b)}}function
-j2(a,b){switch(a[0]){case
+f=a[2],g=a[1],k=aW(g,f,b);return[6,v(aW(g,f,b),k)];default:return v(aH(a[1]),b)}}function
+j4(a,b){switch(a[0]){case
 0:return[0,cb(a[1],a[2],a[3],a[4],b)];case
 1:var
 c=a[2],d=a[1],e=aW(d,c,b);return[0,v(aW(d,c,b),e)];default:return 0}}function
-f3(d,c,b){var
+f4(d,c,b){var
 f=[0,e,a];return an(function(a,d){var
 e=v(cc(a,c),b);return[2,[4,v(cc(a,c),b),e],d]},f,d)}function
-oK(f,d,c,b){if(f){if(d){var
-g=d[1],h=oK(f[2],d[2],c,b),i=v(cc(g,c),b),j=[4,v(cc(g,c),b),i];return[2,[4,f[1],j],h]}return[0,e,a]}return[0,e,a]}function
-oL(b){var
+oM(f,d,c,b){if(f){if(d){var
+g=d[1],h=oM(f[2],d[2],c,b),i=v(cc(g,c),b),j=[4,v(cc(g,c),b),i];return[2,[4,f[1],j],h]}return[0,e,a]}return[0,e,a]}function
+oN(b){var
 c=b[1];return[0,[0,c[1],a],[0,c[2],a],[0,b[2],a]]}function
-j3(b,c){switch(b[0]){case
+j5(b,c){switch(b[0]){case
 0:return b[4];case
 1:var
 d=b[2],e=b[1],f=aW(e,d,c);return[6,v(aW(e,d,c),f)];default:return[0,a,a]}}function
-oM(d,i){if(d){var
+oO(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=aW(a[1],a[2],i),k=aG(f),l=T(v(aG(f),g),k),h=[0,O(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=aW(a[1],a[2],i),k=aH(f),l=T(v(aH(f),g),k),h=[0,O(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=oM(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=oO(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return we}function
-dx(a){return[0,a[1],a[2],a[3]]}function
-oN(a,b){switch(a[0]){case
+j=b;return j}return wi}function
+dy(a){return[0,a[1],a[2],a[3]]}function
+oP(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=aG(d),j=cb(d,g,c,f,b),k=T(cy(a[5],j),i),l=d6(d,g,c,b),m=O(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,O(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=aH(d),j=cb(d,g,c,f,b),k=T(cz(a[5],j),i),l=d6(d,g,c,b),m=O(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,O(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
 h=a[2],e=aW(a[1],h,b),n=[6,v(e,e)];return[0,[0,[0,O(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-oO(m,e,b){switch(b[0]){case
+oQ(m,e,b){switch(b[0]){case
 0:var
 n=b[5],c=F(m,b[1]);if(c){var
 d=c[1];if(d)var
 f=d[1],g=f[1],i=f[2],o=g[2],p=g[1],j=function(a){var
-b=dx(n),c=T(a,o),d=O(function(b,a){return[3,b,a]},p,c);return O(function(b,a){return[2,b,a]},d,b)},q=j([5,b[4],i]),k=[0,[0,j([3,[0,a,a],[5,b[3],i]]),q]];else
+b=dy(n),c=T(a,o),d=O(function(b,a){return[3,b,a]},p,c);return O(function(b,a){return[2,b,a]},d,b)},q=j([5,b[4],i]),k=[0,[0,j([3,[0,a,a],[5,b[3],i]]),q]];else
 var
 k=d;var
 l=k}else
 var
 l=c;return l;case
 1:var
-r=dx(b[3]);return[0,[0,dx(b[2]),r]];default:var
-s=h(e,dx(b[3]));return[0,[0,h(e,dx(b[2])),s]]}}function
-oP(d,a,c,b){var
+r=dy(b[3]);return[0,[0,dy(b[2]),r]];default:var
+s=h(e,dy(b[3]));return[0,[0,h(e,dy(b[2])),s]]}}function
+oR(d,a,c,b){var
 e=T(a,b),f=T([3,d,a],c);return O(function(b,a){return[2,b,a]},f,e)}function
-oQ(a,l,c,k,j,y){var
+oS(a,l,c,k,j,y){var
 d=h(l,k);if(d){var
 m=d[1],e=h(l,j);if(e){var
-n=e[1],f=c[1],g=c[2],b=c[3],z=oP(b,g,n[1],n[2]),A=oP(b,f,m[1],m[2]),o=O(function(b,a){return[3,b,a]},A,z),B=eK(j),p=[4,b,[2,[2,eK(k),B],y]],q=i(a,1,b),r=q?i(a,0,f):q,s=r?i(a,0,[3,b,f]):r,t=s?i(a,0,g):s,u=t?i(a,0,[3,b,g]):t;if(u)return i(a,1,[3,[4,p,p],v(o,o)]);var
+n=e[1],f=c[1],g=c[2],b=c[3],z=oR(b,g,n[1],n[2]),A=oR(b,f,m[1],m[2]),o=O(function(b,a){return[3,b,a]},A,z),B=eK(j),p=[4,b,[2,[2,eK(k),B],y]],q=i(a,1,b),r=q?i(a,0,f):q,s=r?i(a,0,[3,b,f]):r,t=s?i(a,0,g):s,u=t?i(a,0,[3,b,g]):t;if(u)return i(a,1,[3,[4,p,p],v(o,o)]);var
 w=u}else
 var
 w=e;var
 x=w}else
 var
 x=d;return x}function
-oR(d,c,b,a,h,g,f,e){var
+oT(d,c,b,a,h,g,f,e){var
 j=i(d,1,b),k=j?i(d,1,a):j;if(k){var
 l=au(c,f,f),m=[4,[4,a,a],[4,au(c,g,g),l]];return i(d,1,[3,[4,[4,[4,b,b],[4,h,h]],au(c,e,e)],m])}return k}function
-oS(h,g,c,f,y,b){function
+oU(h,g,c,f,y,b){function
 S(b){return[4,[4,[5,[0,a,a],b],[5,[0,a,a],b]],v(f,f)]}var
 N=0;if(typeof
 b==="number")N=1;else
 switch(b[0]){case
 0:var
-aF=f3(g,c,f);return i(h,1,[3,S(b[1]),aF]);case
+aF=f4(g,c,f);return i(h,1,[3,S(b[1]),aF]);case
 1:var
-aH=S(b[1]);return i(h,1,[3,f3(g,c,f),aH]);case
+aG=S(b[1]);return i(h,1,[3,f4(g,c,f),aG]);case
 2:var
 aI=b[2],aJ=function(a){return[3,aI,c3(a,c)]},A=aJ,z=b[1];break;case
 3:var
@@ -3968,18 +3983,18 @@ aK=b[2],aL=function(a){return[3,c3(a,c),aK]},A=aL,z=b[1];break;case
 U=b[3],V=b[2],aM=function(a){var
 b=cc(a,c);return[3,[4,[4,V,V],v(cc(a,c),b)],[4,U,U]]},A=aM,z=b[1];break;case
 5:var
-W=b[1],aN=v(f,f),aO=[4,[4,W,W],[4,f3(g,c,y),aN]],aP=v(y,y);return i(h,1,[3,[4,f3(g,c,f),aP],aO]);case
+W=b[1],aN=v(f,f),aO=[4,[4,W,W],[4,f4(g,c,y),aN]],aP=v(y,y);return i(h,1,[3,[4,f4(g,c,f),aP],aO]);case
 6:var
 X=b[2],C=F(g,b[1]);if(C){var
 k=C[1];if(0===k[0]){var
-D=k[4],aQ=cb(k[1],k[2],k[3],D,c),Y=cy(k[5],aQ);return i(h,1,[3,[4,[4,X,D],[4,X,D]],[4,Y,Y]])}var
+D=k[4],aQ=cb(k[1],k[2],k[3],D,c),Y=cz(k[5],aQ);return i(h,1,[3,[4,[4,X,D],[4,X,D]],[4,Y,Y]])}var
 Z=0}else
 var
 Z=C;return Z;case
 7:if(g){var
 p=g[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-_=q[1],$=p[1],aa=g[1],aR=j3(_,c),aS=j3($,c),aT=j3(aa,c),ab=[4,[4,[4,b[1],aT],aS],aR],l=bL(_,c),m=bL($,c),aU=bL(aa,c),P=v(aU,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ac=i(h,1,[3,ab,P]);if(ac)return i(h,1,[2,ab,P]);var
+_=q[1],$=p[1],aa=g[1],aR=j5(_,c),aS=j5($,c),aT=j5(aa,c),ab=[4,[4,[4,b[1],aT],aS],aR],l=bL(_,c),m=bL($,c),aU=bL(aa,c),P=v(aU,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ac=i(h,1,[3,ab,P]);if(ac)return i(h,1,[2,ab,P]);var
 ad=ac}else
 var
 ad=q;var
@@ -3990,17 +4005,17 @@ af=ae}else
 var
 af=g;return af;case
 8:var
-aV=f3(g,c,f),aX=v(f,f);return i(h,1,[3,[4,[5,b[2],b[1]],aX],aV]);case
+aV=f4(g,c,f),aX=v(f,f);return i(h,1,[3,[4,[5,b[2],b[1]],aX],aV]);case
 9:var
-ag=b[1],E=oM(g,c);if(E){var
+ag=b[1],E=oO(g,c);if(E){var
 aY=E[1],az=[0,e,a],aA=an(function(a,b){var
-c=v(aG(a),f);return[2,[4,v(aG(a),f),c],b]},az,aY);return i(h,1,[3,[4,[4,ag,ag],v(f,f)],aA])}return E;case
+c=v(aH(a),f);return[2,[4,v(aH(a),f),c],b]},az,aY);return i(h,1,[3,[4,[4,ag,ag],v(f,f)],aA])}return E;case
 10:var
-aZ=b[3],a0=b[2],a1=b[1],aB=function(b,a){return[2,b,a]},aC=function(a){return O(aB,c,a)},aD=d(function(a){return oN(a,c)},g);return oQ(h,function(a){return oO(aD,aC,a)},f,a1,a0,aZ);case
+aZ=b[3],a0=b[2],a1=b[1],aB=function(b,a){return[2,b,a]},aC=function(a){return O(aB,c,a)},aD=d(function(a){return oP(a,c)},g);return oS(h,function(a){return oQ(aD,aC,a)},f,a1,a0,aZ);case
 11:var
 ah=b[4],G=F(g,b[1]);if(G){var
-H=oN(G[1],c);if(H){var
-n=H[1][1][2],a2=dx(b[3]),a3=dx(b[2]),r=O(function(b,a){return[3,b,a]},a3,a2),ai=i(h,1,v(n,n));if(ai){var
+H=oP(G[1],c);if(H){var
+n=H[1][1][2],a2=dy(b[3]),a3=dy(b[2]),r=O(function(b,a){return[3,b,a]},a3,a2),ai=i(h,1,v(n,n));if(ai){var
 a4=v(n,n),a5=v(r,n),a6=[5,[4,v(r,n),a5],a4];return i(h,1,[3,[4,ah,ah],[3,v(r,r),a6]])}var
 aj=ai}else
 var
@@ -4031,7 +4046,7 @@ t=g[2];if(t){var
 u=t[2];if(u){if(u[2])return 0;var
 aq=u[1],ar=t[1],as=g[1],at=b[1],L=F([0,f[1],[0,f[2],[0,f[3],0]]],at);if(L){var
 M=F([0,as,[0,ar,[0,aq,0]]],at);if(M){var
-au=M[1],a8=bL(au,c),a9=cc(au,c),a_=bL(aq,c),a$=T(f[3],a_),ba=bL(ar,c),bb=T(f[2],ba),bc=bL(as,c),bd=T(f[1],bc),be=O(function(b,a){return[2,b,a]},bd,bb),bf=O(function(b,a){return[2,b,a]},be,a$);return oR(h,v,b[2],b[3],L[1],bf,a9,a8)}var
+au=M[1],a8=bL(au,c),a9=cc(au,c),a_=bL(aq,c),a$=T(f[3],a_),ba=bL(ar,c),bb=T(f[2],ba),bc=bL(as,c),bd=T(f[1],bc),be=O(function(b,a){return[2,b,a]},bd,bb),bf=O(function(b,a){return[2,b,a]},be,a$);return oT(h,v,b[2],b[3],L[1],bf,a9,a8)}var
 av=M}else
 var
 av=L;var
@@ -4045,56 +4060,56 @@ ay=ax}else
 var
 ay=g;return ay;case
 15:var
-bg=oK(b[1],g,c,f),bh=v(f,f);return i(h,1,[3,[4,b[2],bh],bg]);default:N=1}if(N)return 0;var
+bg=oM(b[1],g,c,f),bh=v(f,f);return i(h,1,[3,[4,b[2],bh],bg]);default:N=1}if(N)return 0;var
 B=F(g,z);return B?i(h,1,A(B[1])):B}function
-f4(g,h,f,c,b){var
-m=f2(g,h,f,c);if(m)if(typeof
+f5(g,h,f,c,b){var
+m=f3(g,h,f,c);if(m)if(typeof
 b==="number")return 0===b?ag(function(d){var
-b=j2(d,c);return b?i(g,0,[3,[0,e,a],b[1]]):b},f):nm(wf,d(function(b){var
+b=j4(d,c);return b?i(g,0,[3,[0,e,a],b[1]]):b},f):no(wj,d(function(b){var
 a=bL(b,c);return[0,a[1],[0,a[2],[0,a[3],0]]]},f));else{if(0===b[0]){var
 j=F(h[3],b[1]);if(j){var
-p=j[1],q=oL(b[3]);return oS(g,f,c,oL(b[2]),q,p)}return j}var
+p=j[1],q=oN(b[3]);return oU(g,f,c,oN(b[2]),q,p)}return j}var
 k=F(h[3],b[1]);if(k){var
 l=F(f,b[2]);if(l){var
-n=l[1],r=k[1],s=cc(n,c);return oS(g,f,c,cc(n,c),s,r)}var
+n=l[1],r=k[1],s=cc(n,c);return oU(g,f,c,cc(n,c),s,r)}var
 o=l}else
 var
 o=k;return o}return m}function
-bV(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-oT(a){switch(a[0]){case
+bW(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+oV(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=bV(b[3]),f=bV(b[2]);return[0,bV(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=bW(b[3]),f=bW(b[2]);return[0,bW(b[1]),f,e,d,c];case
 1:var
-g=x(bV,a[3]),h=bV(a[2]);return[1,bV(a[1]),h,g];default:return[2,bV(a[1])]}}function
-j4(a){return 0===a[0]?bV(a[1]):[0,a[1],a[2],a[4][1]]}function
-oU(b,a){var
-c=j4(a[2]);return f2(b,a,d(oT,a[1]),c)}function
-j5(b,a,c){var
-d=[0,c,aw(b,a)];return g(ap(b,a),d)}function
+g=y(bW,a[3]),h=bW(a[2]);return[1,bW(a[1]),h,g];default:return[2,bW(a[1])]}}function
+j6(a){return 0===a[0]?bW(a[1]):[0,a[1],a[2],a[4][1]]}function
+oW(b,a){var
+c=j6(a[2]);return f3(b,a,d(oV,a[1]),c)}function
+j7(b,a,c){var
+d=[0,c,aw(b,a)];return g(ao(b,a),d)}function
 bj(c,b){if(c){if(b){var
 d=bj(c[2],b[2]);return[2,[4,c[1],b[1]],d]}return[0,e,a]}return[0,e,a]}function
-oV(d,c,b){if(d){if(c){var
-f=c[1],g=oV(d[2],c[2],b),h=bj(f,b),i=[4,bj(f,b),h];return[2,[4,d[1],i],g]}return[0,e,a]}return[0,e,a]}function
-oW(b,a){if(b){if(a){var
-c=b[1],e=oW(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aJ(function(a){return[4,c,a]},h,g,f,e)}var
+oX(d,c,b){if(d){if(c){var
+f=c[1],g=oX(d[2],c[2],b),h=bj(f,b),i=[4,bj(f,b),h];return[2,[4,d[1],i],g]}return[0,e,a]}return[0,e,a]}function
+oY(b,a){if(b){if(a){var
+c=b[1],e=oY(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aJ(function(a){return[4,c,a]},h,g,f,e)}var
 d=a}else
 var
 d=b;return d}function
-oX(b,c,a){var
-d=[0,c,aw([0,b],a)];return g(ap(b,a),d)}function
-oY(a,b){var
-e=m(a,wg),c=e||m(a,wh),d=c?m(f(b),a):c;return d?k(function(b){return m(f(b),a)},b):d}function
-oZ(a){if(a){var
+oZ(b,c,a){var
+d=[0,c,aw([0,b],a)];return g(ao(b,a),d)}function
+o0(a,b){var
+e=m(a,wk),c=e||m(a,wl),d=c?m(f(b),a):c;return d?k(function(b){return m(f(b),a)},b):d}function
+o1(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=oZ(a[2]);return x(function(a){return[0,c,a]},d)}return b}return wi}function
-hL(a){if(a){var
+c=b[1],d=o1(a[2]);return y(function(a){return[0,c,a]},d)}return b}return wm}function
+hM(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=hL(a[2]);return x(function(a){return[0,c,a]},d)}return b}return wj}function
-o0(a,l,k,f){var
-b=aF(a,l);if(b){var
-c=aF(a,k);if(c){var
+c=b[1],d=hM(a[2]);return y(function(a){return[0,c,a]},d)}return b}return wn}function
+o2(a,l,k,f){var
+b=aG(a,l);if(b){var
+c=aG(a,k);if(c){var
 d=dq(a,f);if(d){var
-e=hi(a,f);if(e)var
+e=hj(a,f);if(e)var
 m=r(a,b[1],e[1]),g=[0,B(r(a,c[1],d[1]),m)];else
 var
 g=e;var
@@ -4107,21 +4122,21 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-o1(a){return a?I(a[1][2],e):a}function
-bW(a){return a?I(e,a[1][1]):a}function
-o2(d,b){return i(d,0,[3,[0,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a))))))))),a],b])}function
-o3(d,a){if(a){var
-b=aF(d,a[1]);if(b)var
-c=o3(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+o3(a){return a?I(a[1][2],e):a}function
+bX(a){return a?I(e,a[1][1]):a}function
+o4(d,b){return i(d,0,[3,[0,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a))))))))),a],b])}function
+o5(d,a){if(a){var
+b=aG(d,a[1]);if(b)var
+c=o5(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return wk}function
-hM(d,a){if(a){var
-b=o3(d,a[1]);if(b)var
-c=hM(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+e=b;return e}return wo}function
+hN(d,a){if(a){var
+b=o5(d,a[1]);if(b)var
+c=hN(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return wl}function
-o4(b,a){return an(function(c,a){return w(Q(b,c),a)},t,a)}function
-o5(b,d){function
+e=b;return e}return wp}function
+o6(b,a){return an(function(c,a){return w(Q(b,c),a)},t,a)}function
+o7(b,d){function
 c(e,d,c,a){var
 f=r(b,d,c);return B(r(b,e,a),f)}if(d){var
 e=d[1];if(e){var
@@ -4137,7 +4152,7 @@ n=m[2];if(n){if(n[2])return t;if(k[2])return t;var
 u=n[1],v=m[1],x=l[1],y=j[1],z=i[1],A=h[1],C=c(A,z,x,v),D=r(b,g[1],C),E=r(b,q,c(A,y,x,u));return w(B(r(b,s,c(z,y,v,u)),E),D)}return t}return t}return t}return t}return t}return t}return t}return t}if(a){var
 o=a[1];if(o){var
 p=o[2];return p?p[2]?t:a[2]?t:c(s,q,o[1],p[1]):t}return t}return t}return t}return t}return t}function
-o6(b,p,n,t,g,j){function
+o8(b,p,n,t,g,j){function
 a1(c,b){return[4,[4,[5,[0,a,a],c],[5,[0,a,a],c]],bj(b,b)]}var
 bM=n[1];function
 C(b){var
@@ -4154,10 +4169,10 @@ b=0;if(typeof
 j==="number")b=1;else
 switch(j[0]){case
 6:var
-a=wm;break;case
+a=wq;break;case
 13:case
 14:var
-a=wn;break;default:b=1}if(b)var
+a=wr;break;default:b=1}if(b)var
 a=p;return m(f(c),a)},g);if(a2){var
 w=0;if(typeof
 j==="number")w=1;else
@@ -4176,10 +4191,10 @@ a!=="number"&&0===a[0])return i(b,1,[3,a[1],bR]);return 0},ai=bS,ah=j[1];break;c
 a6=j[3],a7=j[2],bT=function(d){var
 h=m(t,0);if(typeof
 d!=="number"&&1===d[0]){var
-e=d[2],f=d[1],g=i(b,0,[3,[2,a7,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a]],a6]);return g?h?o1(o0(b,f,e,a7)):bW(o0(b,f,e,a6)):g}return 0},ai=bT,ah=j[1];break;case
+e=d[2],f=d[1],g=i(b,0,[3,[2,a7,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a]],a6]);return g?h?o3(o2(b,f,e,a7)):bX(o2(b,f,e,a6)):g}return 0},ai=bT,ah=j[1];break;case
 5:if(g){var
 E=g[2];if(E){if(E[2])return 0;var
-ak=E[1],al=g[1],a8=j[1],bU=bj(al,al),bV=[4,[4,a8,a8],[4,C(ak),bU]],bX=bj(ak,ak);return i(b,1,[3,[4,C(al),bX],bV])}var
+ak=E[1],al=g[1],a8=j[1],bU=bj(al,al),bV=[4,[4,a8,a8],[4,C(ak),bU]],bW=bj(ak,ak);return i(b,1,[3,[4,C(al),bW],bV])}var
 a9=E}else
 var
 a9=g;return a9;case
@@ -4195,11 +4210,11 @@ bc=1}else
 var
 bc=a$;return bc;case
 7:if(g){if(g[2])return 0;var
-bd=g[1],am=j[1],b0=j[3],b1=j[2],ao=hL(n[7]);if(ao){var
+bd=g[1],am=j[1],b0=j[3],b1=j[2],ao=hM(n[7]);if(ao){var
 H=ao[1],ap=F(bd,am);if(ap){var
 b2=ap[1],be=m(f(H),p),bf=be?k(function(a){return m(f(a),p)},H):be;if(bf){var
 aq=F(H,am);if(aq){var
-b3=aq[1];return D(am,function(a){return oR(b,bj,b1,b0,b2,oW(bd,H),a,b3)})}var
+b3=aq[1];return D(am,function(a){return oT(b,bj,b1,b0,b2,oY(bd,H),a,b3)})}var
 bg=aq}else
 var
 bg=bf;var
@@ -4213,14 +4228,14 @@ bk=bi}else
 var
 bk=g;return bk;case
 8:if(g){if(g[2])return 0;var
-ar=g[1],b4=oV(j[1],n[1],ar),b5=bj(ar,ar);return i(b,1,[3,[4,j[2],b5],b4])}return g;case
+ar=g[1],b4=oX(j[1],n[1],ar),b5=bj(ar,ar);return i(b,1,[3,[4,j[2],b5],b4])}return g;case
 9:if(g)return 0;var
 bl=j[3],bm=j[2],b6=function(e){var
 f=i(b,1,bm),g=f?i(b,0,bl):f;if(g){var
-a=aF(b,bj(e,e));if(a){var
-c=aF(b,[5,bl,bm]);if(c){var
-d=jx(b,c[1]);if(d){var
-l=Q(b,d[1]);return bW([0,B(a[1],l)])}var
+a=aG(b,bj(e,e));if(a){var
+c=aG(b,[5,bl,bm]);if(c){var
+d=jy(b,c[1]);if(d){var
+l=Q(b,d[1]);return bX([0,B(a[1],l)])}var
 h=d}else
 var
 h=c;var
@@ -4236,10 +4251,10 @@ c=[4,b7,a[3]],d=i(b,1,c);return d?i(b,1,[3,[4,c,c],[4,a[2],a[2]]]):d},bo=b8,bn=j
 11:if(g)return 0;var
 b9=j[2],b_=function(e){var
 a=dq(b,b9);if(a){var
-c=aF(b,e[3]);if(c){var
-d=aF(b,e[2]);if(d){var
-f=r(b,a[1],c[1]),g=bW([0,f]);if(g){var
-k=Q(b,d[1]);return bW([0,B(Q(b,f),k)])}var
+c=aG(b,e[3]);if(c){var
+d=aG(b,e[2]);if(d){var
+f=r(b,a[1],c[1]),g=bX([0,f]);if(g){var
+k=Q(b,d[1]);return bX([0,B(Q(b,f),k)])}var
 h=g}else
 var
 h=d;var
@@ -4250,8 +4265,8 @@ j=i}else
 var
 j=a;return j},bo=b_,bn=j[1];w=2;break;case
 12:if(g)return 0;var
-au=oZ(n[3]);if(au){var
-bq=au[1],b$=j[1],br=bA(function(b,a){return[4,b,a[3]]},bq,b$),av=d(function(a){return a[1]},bq),x=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(av){var
+au=o1(n[3]);if(au){var
+bq=au[1],b$=j[1],br=bz(function(b,a){return[4,b,a[3]]},bq,b$),av=d(function(a){return a[1]},bq),x=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(av){var
 P=av[1];if(P){var
 R=P[2];if(R){var
 S=R[2],aC=R[1],aD=P[1],o=av[2];if(S)if(S[2]||!o)var
@@ -4263,7 +4278,7 @@ W=o[2];if(W){var
 X=W[1];if(X){var
 Y=X[2];if(Y){var
 Z=Y[2];if(Z&&!(Z[2]||W[2]))var
-aE=Z[1],aG=Y[1],aH=X[1],aI=V[1],aJ=U[1],aK=T[1],bF=x(aK,aJ,aH,aG),bG=[4,S[1],bF],bH=[4,aC,x(aK,aI,aH,aE)],l=[2,[3,[4,aD,x(aJ,aI,aG,aE)],bH],bG];else
+aE=Z[1],aF=Y[1],aH=X[1],aI=V[1],aJ=U[1],aK=T[1],bF=x(aK,aJ,aH,aF),bG=[4,S[1],bF],bH=[4,aC,x(aK,aI,aH,aE)],l=[2,[3,[4,aD,x(aJ,aI,aF,aE)],bH],bG];else
 var
 l=[0,e,a]}else
 var
@@ -4299,16 +4314,16 @@ bt=au;return bt;case
 ca=j[2],aw=F(n[4],j[1]);if(aw){var
 ax=aw[1];if(ax){var
 bu=function(b){if(ca){var
-c=h(n[5],[0,[0,e,a],[0,e,a],[0,e,a]]),d=h(n[5],b);return O(function(b,a){return[3,b,a]},d,c)}return b},I=j[4],u=bu(dx(j[3])),J=ax[1][1][2],q=v(J,u);if(o2(b,I)){if(t){if(t[1])return 0;if(g){var
+c=h(n[5],[0,[0,e,a],[0,e,a],[0,e,a]]),d=h(n[5],b);return O(function(b,a){return[3,b,a]},d,c)}return b},I=j[4],u=bu(dy(j[3])),J=ax[1][1][2],q=v(J,u);if(o4(b,I)){if(t){if(t[1])return 0;if(g){var
 y=g[1];if(y){var
 z=y[2];if(z){var
 A=z[2];if(A){if(A[2])return 0;if(g[2])return 0;var
 aa=bu([0,y[1],z[1],A[1]]),aL=v(J,aa),aM=i(b,1,q);if(aM){var
 ab=dq(b,I);if(ab){var
-aN=ab[1],ac=aF(b,[4,v(u,u),[4,aL,aL]]);if(ac){var
-ad=aF(b,[4,[4,q,q],v(aa,aa)]);if(ad){var
-aO=bW([0,aN]);if(aO){var
-bI=ad[1],bJ=ac[1];return bW([0,B(r(b,Q(b,aN),bJ),bI)])}var
+aN=ab[1],ac=aG(b,[4,v(u,u),[4,aL,aL]]);if(ac){var
+ad=aG(b,[4,[4,q,q],v(aa,aa)]);if(ad){var
+aO=bX([0,aN]);if(aO){var
+bI=ad[1],bJ=ac[1];return bX([0,B(r(b,Q(b,aN),bJ),bI)])}var
 aP=aO}else
 var
 aP=ad;var
@@ -4335,9 +4350,9 @@ var
 aW=g;return aW}return g?0:i(b,1,[3,[0,e,a],q])}if(t)return 0;if(g)return 0;var
 aX=i(b,0,[3,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a],I]);if(aX){var
 ae=dq(b,I);if(ae){var
-af=aF(b,q);if(af){var
-bK=v(J,J),ag=aF(b,[6,[4,v(u,u),bK]]);if(ag){var
-bL=r(b,ae[1],ag[1]);return o1([0,B(af[1],bL)])}var
+af=aG(b,q);if(af){var
+bK=v(J,J),ag=aG(b,[6,[4,v(u,u),bK]]);if(ag){var
+bL=r(b,ae[1],ag[1]);return o3([0,B(af[1],bL)])}var
 aY=ag}else
 var
 aY=af;var
@@ -4354,7 +4369,7 @@ bv=aw;return bv;case
 K=g[1];if(K){var
 L=K[2];if(L){var
 M=L[2];if(M){if(M[2])return 0;if(g[2])return 0;var
-cb=j[3],cc=j[2],cd=j[1],ce=[0,K[1],L[1],M[1]],cf=n[5],cg=n[4];return oQ(b,function(a){return oO(cg,cf,a)},ce,cd,cc,cb)}var
+cb=j[3],cc=j[2],cd=j[1],ce=[0,K[1],L[1],M[1]],cf=n[5],cg=n[4];return oS(b,function(a){return oQ(cg,cf,a)},ce,cd,cc,cb)}var
 bw=M}else
 var
 bw=L;var
@@ -4365,21 +4380,21 @@ by=bx}else
 var
 by=g;return by;case
 17:if(g)return 0;var
-bz=j[2],ay=j[1],ch=j[3],az=hL(n[7]);if(az){var
-aA=az[1],bB=oY(p,aA),bC=bB?m(f(bz),p):bB;if(bC){var
+bA=j[2],ay=j[1],ch=j[3],az=hM(n[7]);if(az){var
+aA=az[1],bB=o0(p,aA),bC=bB?m(f(bA),p):bB;if(bC){var
 aB=F(aA,ay);if(aB){var
 ci=aB[1];return D(ay,function(x){var
-e=hM(b,aA);if(e){var
-j=e[1],f=hM(b,[0,bz,[0,x,[0,ci,0]]]);if(f){var
+e=hN(b,aA);if(e){var
+j=e[1],f=hN(b,[0,bA,[0,x,[0,ci,0]]]);if(f){var
 a=f[1];if(a){var
 c=a[2];if(c){var
 d=c[2];if(d){if(d[2])return 0;var
-g=aF(b,ch);if(g){var
-k=g[1],l=Q(b,o5(b,j)),h=o5(b,oX(ay,a[1],j)),n=bW([0,k]),o=n?bW([0,l]):n;if(o)var
-y=m(t,0)?h:N(h),i=bW([0,y]);else
+g=aG(b,ch);if(g){var
+k=g[1],l=Q(b,o7(b,j)),h=o7(b,oZ(ay,a[1],j)),n=bX([0,k]),o=n?bX([0,l]):n;if(o)var
+y=m(t,0)?h:N(h),i=bX([0,y]);else
 var
 i=o;if(i){var
-z=o4(b,c[1]),A=r(b,r(b,Q(b,k),l),z),C=o4(b,d[1]);return bW([0,B(r(b,Q(b,h),C),A)])}var
+z=o6(b,c[1]),A=r(b,r(b,Q(b,k),l),z),C=o6(b,d[1]);return bX([0,B(r(b,Q(b,h),C),A)])}var
 p=i}else
 var
 p=g;var
@@ -4415,83 +4430,83 @@ bp=as;return bp;default:var
 aj=F(n[2],ah);return aj?ai(aj[1]):aj}}else
 var
 a3=a2;return a3}function
-f5(d,f,b){if(typeof
+f6(d,f,b){if(typeof
 b!=="number")switch(b[0]){case
 13:var
-e=b[4];if(o2(d,e)&&L(i(d,0,[3,e,[0,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a))))))))),a]])))return wq;return wr;case
+e=b[4];if(o4(d,e)&&J(i(d,0,[3,e,[0,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a))))))))),a]])))return wu;return wv;case
 16:return f;case
 4:case
-17:return wp}return wo}function
+17:return wt}return ws}function
 d7(e,d,g,f){var
 b=g,a=f;for(;;){if(a){var
-c=a[1];if(aE(b,f5(e,d,c)))return[0,[0,c,b]];var
-h=a[2],b=dO(b,f5(e,d,c)),a=h;continue}return a}}function
-f6(b){return d(function(b){return[0,b,a]},b)}function
-j6(f,o,g,c,n,b){if(typeof
+c=a[1];if(aF(b,f6(e,d,c)))return[0,[0,c,b]];var
+h=a[2],b=dP(b,f6(e,d,c)),a=h;continue}return a}}function
+f7(b){return d(function(b){return[0,b,a]},b)}function
+j8(f,o,g,c,n,b){if(typeof
 b==="number"){if(0===b){var
 s=c[6];return ag(function(b){return i(f,0,[3,[0,e,a],b])},s)}var
-h=hL(c[7]);return h?nm(g,h[1]):h}else{if(0===b[0]){var
+h=hM(c[7]);return h?no(g,h[1]):h}else{if(0===b[0]){var
 j=d7(f,o,b[1],n);if(j){var
-p=j[1],t=p[1],u=d(f6,b[2]);return o6(f,g,c,p[2],u,t)}return j}var
+p=j[1],t=p[1],u=d(f7,b[2]);return o8(f,g,c,p[2],u,t)}return j}var
 k=d7(f,o,b[1],n);if(k){var
 q=k[1],l=q[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=F(c[1],b[2]);return m?o6(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
+m=F(c[1],b[2]);return m?o8(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
 r=0}else
 var
 r=k;return r}}function
-j7(a){var
-b=aG(a[1]),c=T(v(b,a[2]),b),d=a[2];return O(function(b,a){return[3,b,a]},d,c)}function
-e3(a){return aG(j7(a))}function
-f7(c){var
-a=e3(c),b=aG(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-hN(a,b){return aW(a[3],a[4],b)}function
-f8(a,b){var
-c=hN(a,b);return v(e3(a),c)}function
+j9(a){var
+b=aH(a[1]),c=T(v(b,a[2]),b),d=a[2];return O(function(b,a){return[3,b,a]},d,c)}function
+e3(a){return aH(j9(a))}function
+f8(c){var
+a=e3(c),b=aH(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+hO(a,b){return aW(a[3],a[4],b)}function
 f9(a,b){var
-c=hN(a,b);return v(f7(a),c)}function
-o7(a,b){var
-c=hN(a,b);return v(aG(a[1]),c)}function
-hO(b,a){var
-c=f9(b,a),d=f8(b,a);return[2,[4,d,d],[4,c,c]]}function
-f_(b,d){var
-h=b[5],i=[4,[0,c(2,a),a],h],e=b[6],f=b[5],g=o7(b,d);return[5,[2,hO(b,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-j8(a,b){var
-f=a[5],c=[3,f_(a,b),f],d=o7(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+c=hO(a,b);return v(e3(a),c)}function
+f_(a,b){var
+c=hO(a,b);return v(f8(a),c)}function
+o9(a,b){var
+c=hO(a,b);return v(aH(a[1]),c)}function
+hP(b,a){var
+c=f_(b,a),d=f9(b,a);return[2,[4,d,d],[4,c,c]]}function
+f$(b,d){var
+h=b[5],i=[4,[0,c(2,a),a],h],e=b[6],f=b[5],g=o9(b,d);return[5,[2,hP(b,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+j_(a,b){var
+f=a[5],c=[3,f$(a,b),f],d=o9(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
 d8(a,b){var
-c=j8(a,b);return cy(a[7],c)}function
-j9(b,a){var
-c=hO(b,a),d=f9(b,a),e=[4,d8(b,a),d],f=f8(b,a);return[5,[2,[4,f_(b,a),f],e],c]}function
-j_(b,a){var
-c=hO(b,a),d=f8(b,a),e=[4,d8(b,a),d],f=f9(b,a);return[5,[3,[4,f_(b,a),f],e],c]}function
-j$(a,b){var
-c=f7(a),d=T(j_(a,b),c),e=e3(a),f=T(j9(a,b),e),g=O(function(b,a){return[2,b,a]},f,d),h=T(a[5],g),i=a[3];return O(function(b,a){return[2,b,a]},i,h)}function
-ka(b,c){var
-d=j$(b,c),e=b[4],f=O(function(b,a){return[2,b,a]},c,e),g=O(function(b,a){return[3,b,a]},f,d),h=d8(b,c);return T([5,[0,a,a],[4,b[5],h]],g)}function
+c=j_(a,b);return cz(a[7],c)}function
+j$(b,a){var
+c=hP(b,a),d=f_(b,a),e=[4,d8(b,a),d],f=f9(b,a);return[5,[2,[4,f$(b,a),f],e],c]}function
+ka(b,a){var
+c=hP(b,a),d=f9(b,a),e=[4,d8(b,a),d],f=f_(b,a);return[5,[3,[4,f$(b,a),f],e],c]}function
+kb(a,b){var
+c=f8(a),d=T(ka(a,b),c),e=e3(a),f=T(j$(a,b),e),g=O(function(b,a){return[2,b,a]},f,d),h=T(a[5],g),i=a[3];return O(function(b,a){return[2,b,a]},i,h)}function
+kc(b,c){var
+d=kb(b,c),e=b[4],f=O(function(b,a){return[2,b,a]},c,e),g=O(function(b,a){return[3,b,a]},f,d),h=d8(b,c);return T([5,[0,a,a],[4,b[5],h]],g)}function
 d9(b){return[5,[3,[0,a,a],[4,b,b]],[2,[0,a,a],[4,b,b]]]}function
 d_(b){return[5,[4,[0,c(2,a),a],b],[2,[0,a,a],[4,b,b]]]}function
-kb(a,c,b){var
+kd(a,c,b){var
 d=[4,d9(a),b],e=[2,[4,d_(a),c],d],f=[4,d_(a),b];return[0,[3,[4,d9(a),c],f],e]}function
-o8(c,a){var
-b=kb(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-cz(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-o9(b,d){var
-e=v(b,b),f=cz(b,d),g=T([0,c(2,a),a],f),h=v(b,d),i=T([4,[0,c(2,a),a],h],b),j=T([3,[0,a,a],e],d),k=O(function(b,a){return[2,b,a]},j,i);return T([5,[0,a,a],[2,[0,a,a],e]],O(function(b,a){return[2,b,a]},k,g))}function
-dy(j,b,a){switch(j[0]){case
-0:return b?b[2]?a:o8(b[1],a):a;case
+o_(c,a){var
+b=kd(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+cA(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+o$(b,d){var
+e=v(b,b),f=cA(b,d),g=T([0,c(2,a),a],f),h=v(b,d),i=T([4,[0,c(2,a),a],h],b),j=T([3,[0,a,a],e],d),k=O(function(b,a){return[2,b,a]},j,i);return T([5,[0,a,a],[2,[0,a,a],e]],O(function(b,a){return[2,b,a]},k,g))}function
+dz(j,b,a){switch(j[0]){case
+0:return b?b[2]?a:o_(b[1],a):a;case
 1:if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){if(d[2])return a;var
-g=kb(b[1],a[2],a[3]),i=g[1],h=kb(c[1],g[2],a[1]);return o8(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
+g=kd(b[1],a[2],a[3]),i=g[1],h=kd(c[1],g[2],a[1]);return o_(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
 e=b[2];if(e){var
-f=e[2];return f?f[2]?a:o9([0,b[1],e[1],f[1]],a):a}return a}return a}}function
-o_(c){var
+f=e[2];return f?f[2]?a:o$([0,b[1],e[1],f[1]],a):a}return a}return a}}function
+pa(c){var
 b=cV(c);return b?eJ(b[1],[0,e,a]):b}function
-o$(b,n,k,j){if(o_(j)){var
+pb(b,n,k,j){if(pa(j)){var
 q=n?[3,[0,e,a],k]:k;return i(b,0,q)}var
-f=aF(b,k);if(f){var
+f=aG(b,k);if(f){var
 g=dq(b,[5,j,[0,c(2,a),a]]);if(g){var
-h=hi(b,[5,j,[0,c(2,a),a]]);if(h)var
+h=hj(b,[5,j,[0,c(2,a),a]]);if(h)var
 p=r(b,f[1],g[1]),l=[0,B(h[1],p)];else
 var
 l=h;var
@@ -4503,23 +4518,23 @@ var
 d=f;if(d){var
 o=d[1];return n?D(e,o[1]):D(o[2],e)}return d}function
 d$(b,a,c){var
-d=bI(b,a[1],a[2]),e=d?o$(b,0,c,a[1]):d;return e?o$(b,1,c,a[2]):e}function
-pa(h,f,c){if(o_(c))return[0,t];var
-b=G(h,jw(f)),d=dq(b,c);if(d){var
-e=hi(b,c);if(e){var
-i=e[1],j=d[1],k=bP(b,w(J(b,a),j));return x(function(a){return m9(f,r(b,i,a))},k)}var
+d=bI(b,a[1],a[2]),e=d?pb(b,0,c,a[1]):d;return e?pb(b,1,c,a[2]):e}function
+pc(h,f,c){if(pa(c))return[0,t];var
+b=G(h,jx(f)),d=dq(b,c);if(d){var
+e=hj(b,c);if(e){var
+i=e[1],j=d[1],k=bP(b,w(K(b,a),j));return y(function(a){return m$(f,r(b,i,a))},k)}var
 g=e}else
 var
 g=d;return g}function
-cA(a){return function(b){return pa(a,e,b)}}function
-cB(d,b){var
+cB(a){return function(b){return pc(a,e,b)}}function
+cC(d,b){var
 e=i(d,1,[2,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a],b]);return e?i(d,1,[3,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a],b]):e}function
-dz(b){return[0,[3,[0,e,a],b],b]}function
-pb(b,c,o,n){var
-i=bI(b,[0,e,a],c),j=i?cB(b,c):i;if(j){var
-d=h(cA(b),c);if(d){var
-f=aF(b,o);if(f){var
-g=aF(b,n);if(g){var
+dA(b){return[0,[3,[0,e,a],b],b]}function
+pd(b,c,o,n){var
+i=bI(b,[0,e,a],c),j=i?cC(b,c):i;if(j){var
+d=h(cB(b),c);if(d){var
+f=aG(b,o);if(f){var
+g=aG(b,n);if(g){var
 p=f[1],q=g[1];return D(e,B(r(b,Q(b,d[1]),q),p)[1])}var
 k=g}else
 var
@@ -4530,7 +4545,7 @@ l=d;var
 m=l}else
 var
 m=j;return m}function
-f$(d,c,b){switch(c[0]){case
+ga(d,c,b){switch(c[0]){case
 0:return b?b[2]?0:d$(d,c[1],b[1]):b;case
 1:if(b){var
 e=b[2];if(e){var
@@ -4548,7 +4563,7 @@ p=b;return p;case
 2:if(b){var
 g=b[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=b[1],C=v([0,s,r,q],[0,s,r,q]);return pb(d,c[1],C,[0,a,a])}var
+q=h[1],r=g[1],s=b[1],C=v([0,s,r,q],[0,s,r,q]);return pd(d,c[1],C,[0,a,a])}var
 t=h}else
 var
 t=g;var
@@ -4557,7 +4572,7 @@ var
 u=b;return u;default:if(b){var
 i=b[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],w=i[1],x=b[1],y=pb(d,c[1],[2,[4,x,x],[4,w,w]],[2,[0,a,a],[4,k,k]]);if(y)return d$(d,dz(c[2]),k);var
+k=j[1],w=i[1],x=b[1],y=pd(d,c[1],[2,[4,x,x],[4,w,w]],[2,[0,a,a],[4,k,k]]);if(y)return d$(d,dA(c[2]),k);var
 z=y}else
 var
 z=j;var
@@ -4568,75 +4583,75 @@ B=A}else
 var
 B=b;return B}}var
 j=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,a)))))))));function
-bX(b){var
+bY(b){var
 a=an(function(f,d){var
-a=aF(j,f);if(a)var
-b=a[1],c=by(cL(b[1]),cL(b[2]));else
+a=aG(j,f);if(a)var
+b=a[1],c=bx(cM(b[1]),cM(b[2]));else
 var
-c=e;return by(c,d)},e,b);return I(e,a)?aX(mJ(a),j):e}function
+c=e;return bx(c,d)},e,b);return I(e,a)?aX(mL(a),j):e}function
 e4(a){return[0,a[1],[0,a[2],0]]}function
 bk(a){var
 b=e4(a[3]),c=g(e4(a[2]),b);return g(e4(a[1]),c)}function
-hP(a){return hK(j,a,bX(bk(a)))}function
-pc(b,a){if(a){var
-g=pc([0,b],a[2]),c=a[1];if(0===c[0])var
-d=c[1],e=bU([0,[0,d,d],c[2]],b);else
+hQ(a){return hL(j,a,bY(bk(a)))}function
+pe(b,a){if(a){var
+g=pe([0,b],a[2]),c=a[1];if(0===c[0])var
+d=c[1],e=bV([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-pd(c,b,a){var
+pf(c,b,a){var
 d=eK(b);return[2,[2,eK(c),d],a]}function
-hQ(b,a){return b?W(a):e}function
-ga(h,c,b){if(typeof
+hR(b,a){return b?W(a):e}function
+gb(h,c,b){if(typeof
 b!=="number")switch(b[0]){case
 4:var
 l=b[3],m=b[2];return[0,[2,m],[0,[3,m],[0,[2,l],[0,[3,l],0]]]];case
 6:return[0,[0,[5,b[3],b[2]],e],0];case
 8:var
 s=b[2],t=b[1];return d(function(a){var
-b=hQ(h,c);return[0,[5,s,a],G(hQ(h,c),b)]},t);case
+b=hR(h,c);return[0,[5,s,a],G(hR(h,c),b)]},t);case
 9:return[0,[1,[5,b[3],b[2]],W(c)],0];case
 10:return[0,[0,b[2],e],0];case
 11:return[0,[2,b[2]],0];case
 12:return[0,[0,b[1],e],0];case
 13:var
-f=b[3],k=bX([0,f[1],[0,f[2],[0,f[3],0]]]);return[0,[2,b[4]],[0,[0,f[1],k],[0,[0,f[2],k],[0,[0,f[3],k],0]]]];case
+f=b[3],k=bY([0,f[1],[0,f[2],[0,f[3],0]]]);return[0,[2,b[4]],[0,[0,f[1],k],[0,[0,f[2],k],[0,[0,f[3],k],0]]]];case
 14:var
-n=b[2],o=b[1],u=e1(c,n),v=g(e1(c,o),u),w=d(function(a){return[0,a[1][2],a[2]]},v);return[0,[0,pd(o,n,b[3]),c],w];case
+n=b[2],o=b[1],u=e1(c,n),v=g(e1(c,o),u),w=d(function(a){return[0,a[1][2],a[2]]},v);return[0,[0,pf(o,n,b[3]),c],w];case
 15:var
 i=b[4],j=b[3],p=b[2];return h?[0,[0,[5,p,i],c],[0,[0,[5,[4,j,j],i],G(c,c)],[0,[1,[0,a,a],e],0]]]:[0,[0,[5,p,i],e],[0,[0,[5,[4,j,j],i],c],0]];case
 16:var
-q=b[2],r=bX([0,q,0]);return[0,[4,b[3],aX(r,c)],[0,[0,q,r],0]];case
+q=b[2],r=bY([0,q,0]);return[0,[4,b[3],aX(r,c)],[0,[0,q,r],0]];case
 17:var
-x=b[3],y=b[2];return d(function(a){return[0,[5,a,x],hQ(h,c)]},y);case
+x=b[3],y=b[2];return d(function(a){return[0,[5,a,x],hR(h,c)]},y);case
 2:case
 3:return[0,[0,b[2],c],0]}return 0}function
-dA(h,c,b,e,a){if(a){var
-d=a[1],i=a[2],j=dA(h,c,b,P(e,f(ga(c,b,d))),i);return g(au(h,pc(e,ga(c,b,d)),d),j)}return a}function
-hR(b,a){var
+dB(h,c,b,e,a){if(a){var
+d=a[1],i=a[2],j=dB(h,c,b,P(e,f(gb(c,b,d))),i);return g(au(h,pe(e,gb(c,b,d)),d),j)}return a}function
+hS(b,a){var
 c=M(b,a);return d(function(a){var
 b=u(a[1][2],a[2]);return[0,a[1][1],b]},c)}function
-hS(b,a){switch(a[0]){case
+hT(b,a){switch(a[0]){case
 0:var
 d=a[1];return av(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=av(b,[0,[0,e,e],a[2]]);return c?jx(b,c[1]):c;case
+e=a[1],c=av(b,[0,[0,e,e],a[2]]);return c?jy(b,c[1]):c;case
 2:return dq(b,a[1]);case
-3:return hi(b,a[1]);default:var
-f=a[1],g=cB(b,f);return g?pa(b,a[2],f):g}}function
-bM(a){return 1===a?ws:wt}function
+3:return hj(b,a[1]);default:var
+f=a[1],g=cC(b,f);return g?pc(b,a[2],f):g}}function
+bM(a){return 1===a?ww:wx}function
 cd(d,c,b,a){var
-e=a[1],f=dy(d,c,a[2]),g=O(function(b,a){return[2,b,a]},b,f);return O(function(b,a){return[3,b,a]},g,e)}function
-kc(c,b,a){switch(c){case
+e=a[1],f=dz(d,c,a[2]),g=O(function(b,a){return[2,b,a]},b,f);return O(function(b,a){return[3,b,a]},g,e)}function
+ke(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-kd(h,g,d,c,f,b){var
-e=cd(d,c,f,b);return kc(h,e,T([5,[0,a,a],g],cz(dy(d,c,b[2]),e)))}function
+kf(h,g,d,c,f,b){var
+e=cd(d,c,f,b);return ke(h,e,T([5,[0,a,a],g],cA(dz(d,c,b[2]),e)))}function
 e5(c,d,n,m,l){var
 b=d[2],a=n;for(;;){if(b){if(a){var
-f=a[1],g=b[1],h=bE(c,g[1],f[1]),i=h?bE(c,g[2],f[2]):h;if(i){var
+f=a[1],g=b[1],h=bD(c,g[1],f[1]),i=h?bD(c,g[2],f[2]):h;if(i){var
 b=b[2],a=a[2];continue}var
 j=i}else
 var
@@ -4644,7 +4659,7 @@ j=a;var
 e=j}else
 var
 e=a?0:1;var
-k=e?c2(c,d[4],m):e;return k?f$(c,d[5],l):k}}function
+k=e?c2(c,d[4],m):e;return k?ga(c,d[5],l):k}}function
 bN(b,d){var
 a=d[1];if(8===a[0]){var
 c=a[1][1];return 0===c[0]?[0,[0,P(b,c[1])]]:[0,b9(function(a){return bN(b,a)},a)]}return[0,b9(function(a){return bN(b,a)},a)]}function
@@ -4652,7 +4667,7 @@ ea(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=L(m(e,b));return f?L(m(e,P(d,b))):f;case
+e=a[1],f=J(m(e,b));return f?J(m(e,P(d,b))):f;case
 10:return 0;case
 1:case
 2:return 1;case
@@ -4684,7 +4699,7 @@ d=a[2];continue}return e;case
 c4(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return L(m(a[1],c));case
+0:return J(m(a[1],c));case
 10:return 0;case
 1:case
 2:return 1;case
@@ -4694,14 +4709,14 @@ a=b[1];switch(a[0]){case
 b=a[1];continue;default:var
 d=c4(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-hT(d,b,m){var
+hU(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=hT(d,b,a[1]);if(f){var
+f=hU(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=hT(d,b,a[1]);return g?c4(b,a[2]):g;case
+g=hU(d,b,a[1]);return g?c4(b,a[2]):g;case
 6:var
 h=a[2],i=a[1],j=c4(b,i);if(j){var
 k=c4(b,h);if(k)var
@@ -4714,10 +4729,10 @@ e=j;return e;case
 0:case
 1:case
 2:return 1;default:return c4(b,c)}}}function
-hU(c,e){var
+hV(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return aE(a[1],c);case
+0:return aF(a[1],c);case
 10:return 0;case
 1:case
 2:return 1;case
@@ -4725,81 +4740,81 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=hU(c,a[1]);if(d){var
+d=hV(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-hV(a,h){if(a){var
-b=a[2],c=a[1],d=mW(h);if(d){var
-e=d[1],f=e[2];return e[1]?[0,c,hV(b,an(mZ,f,mY(c)))]:[0,ww,hV(b,f)]}var
-g=[0,c,hV(b,0)]}else
+hW(a,h){if(a){var
+b=a[2],c=a[1],d=mY(h);if(d){var
+e=d[1],f=e[2];return e[1]?[0,c,hW(b,an(m1,f,m0(c)))]:[0,wA,hW(b,f)]}var
+g=[0,c,hW(b,0)]}else
 var
 g=a;return g}function
-dB(b,a){return a?h(b,a[1]):a}function
-dC(c,b,a){return dB(function(b){return dB(h(c,b),a)},b)}function
-pe(b,a){switch(a[0]){case
+dC(b,a){return a?h(b,a[1]):a}function
+dD(c,b,a){return dC(function(b){return dC(h(c,b),a)},b)}function
+pg(b,a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 c=a[3],d=a[2],e=a[1];switch(b){case
 0:return e;case
 1:return d;default:return c}}}function
-pf(a){return 0===a[0]?a[1]:0}function
-pg(d,c){var
+ph(a){return 0===a[0]?a[1]:0}function
+pi(d,c){var
 b=d,a=c;for(;;){if(a){var
-e=a[2],b=pe(a[1],b),a=e;continue}return pf(b)}}function
-cC(b,a){switch(a[0]){case
+e=a[2],b=pg(a[1],b),a=e;continue}return ph(b)}}function
+cD(b,a){switch(a[0]){case
 0:return[0,h(b,a[1])];case
-1:return[1,cC(b,a[1])];default:var
-c=cC(b,a[3]),d=cC(b,a[2]);return[2,cC(b,a[1]),d,c]}}function
-bF(b,c,a){switch(c[0]){case
-0:return cC(h(b,c[1]),a);case
+1:return[1,cD(b,a[1])];default:var
+c=cD(b,a[3]),d=cD(b,a[2]);return[2,cD(b,a[1]),d,c]}}function
+bE(b,c,a){switch(c[0]){case
+0:return cD(h(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-k=a[1];return[1,cC(function(a){return au(b,a,k)},d)];case
-1:return[1,bF(b,d,a[1])];default:var
-l=bF(b,d,a[3]),m=bF(b,d,a[2]);return[2,bF(b,d,a[1]),m,l]}default:var
+k=a[1];return[1,cD(function(a){return au(b,a,k)},d)];case
+1:return[1,bE(b,d,a[1])];default:var
+l=bE(b,d,a[3]),m=bE(b,d,a[2]);return[2,bE(b,d,a[1]),m,l]}default:var
 e=c[3],f=c[2],g=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return au(b,a,n)},i=function(a){return cC(o,a)},p=i(e),q=i(f);return[2,i(g),q,p];case
+n=a[1],o=function(a){return au(b,a,n)},i=function(a){return cD(o,a)},p=i(e),q=i(f);return[2,i(g),q,p];case
 1:var
-j=a[1],r=bF(b,e,j),s=bF(b,f,j);return[2,bF(b,g,j),s,r];default:var
-t=bF(b,e,a[3]),u=bF(b,f,a[2]);return[2,bF(b,g,a[1]),u,t]}}}function
-ke(c,f,a){if(a)var
+j=a[1],r=bE(b,e,j),s=bE(b,f,j);return[2,bE(b,g,j),s,r];default:var
+t=bE(b,e,a[3]),u=bE(b,f,a[2]);return[2,bE(b,g,a[1]),u,t]}}}function
+kg(c,f,a){if(a)var
 e=a[1],b=function(i){var
 a=[0,e[1],e[1]],b=[0,e[2],e[2]];switch(i){case
 0:var
 d=[0,a,Q(c,a)];break;case
 1:var
-g=r(c,a,b),d=[0,aj(w(a,b)),g];break;default:var
-d=[0,b,Q(c,b)]}return[0,[0,h(f,d)]]},i=ke(c,f,a[2]),j=d(function(a){return[1,a]},i),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
+g=r(c,a,b),d=[0,ak(w(a,b)),g];break;default:var
+d=[0,b,Q(c,b)]}return[0,[0,h(f,d)]]},i=kg(c,f,a[2]),j=d(function(a){return[1,a]},i),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
 var
 g=a;return g}function
-kf(b,z,c,a){var
-d=ke(b,aH,a),A=g(ke(b,ao,a),d);return cS(wy,function(a){switch(a[0]){case
+kh(b,z,c,a){var
+d=kg(b,aE,a),A=g(kg(b,ap,a),d);return cS(wC,function(a){switch(a[0]){case
 0:return q(a[1],A,[0,[0,t]]);case
 1:return[0,[0,q(a[1],z,t)]];case
-2:return[0,[0,J(b,a[1])]];case
+2:return[0,[0,K(b,a[1])]];case
 3:var
-c=a[2],d=a[1],e=function(b,a){return[0,w(b,a)]};return bF(function(a,b){return dC(e,a,b)},d,c);case
+c=a[2],d=a[1],e=function(b,a){return[0,w(b,a)]};return bE(function(a,b){return dD(e,a,b)},d,c);case
 4:var
-f=a[2],g=a[1],h=function(b,a){return[0,B(b,a)]};return bF(function(a,b){return dC(h,a,b)},g,f);case
+f=a[2],g=a[1],h=function(b,a){return[0,B(b,a)]};return bE(function(a,b){return dD(h,a,b)},g,f);case
 5:var
-i=a[1],j=function(a){return[0,N(a)]};return cC(function(a){return dB(j,a)},i);case
+i=a[1],j=function(a){return[0,N(a)]};return cD(function(a){return dC(j,a)},i);case
 6:var
-k=a[2],l=a[1],m=function(c,a){return[0,r(b,c,a)]};return bF(function(a,b){return dC(m,a,b)},l,k);case
+k=a[2],l=a[1],m=function(c,a){return[0,r(b,c,a)]};return bE(function(a,b){return dD(m,a,b)},l,k);case
 7:var
 n=a[2],o=a[1],p=function(c,a){var
-d=bP(b,a);return x(function(a){return r(b,c,a)},d)};return bF(function(a,b){return dC(p,a,b)},o,n);case
+d=bP(b,a);return y(function(a){return r(b,c,a)},d)};return bE(function(a,b){return dD(p,a,b)},o,n);case
 8:var
-s=a[1],u=function(a){return[0,Q(b,a)]};return cC(function(a){return dB(u,a)},s);case
+s=a[1],u=function(a){return[0,Q(b,a)]};return cD(function(a){return dC(u,a)},s);case
 9:var
-v=a[1],y=function(a){return cq(b,a)};return cC(function(a){return dB(y,a)},v);default:return wx}},c)}function
-hW(a){if(a){var
+v=a[1],x=function(a){return cr(b,a)};return cD(function(a){return dC(x,a)},v);default:return wB}},c)}function
+hX(a){if(a){var
 b=a[1];if(b)var
-c=hW(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=hX(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return wz}function
+d=b;return d}return wD}function
 e7(a){if(a){var
-g=a[1],b=g[2],c=hW(g[1]);if(c)if(b){var
+g=a[1],b=g[2],c=hX(g[1]);if(c)if(b){var
 h=b[1],d=e7(a[2]);if(d)var
 i=I(e,h[1]),j=i?[0,[0,[0,c[1],h],d[1]]]:i;else
 var
@@ -4808,55 +4823,55 @@ f=j}else
 var
 f=b;else
 var
-f=c;return f}return wA}function
+f=c;return f}return wE}function
 e8(b,a){var
-c=a[3],d=x(function(a){var
+c=a[3],d=y(function(a){var
 c=a[2],d=a[1][2];return[0,[0,h(b,a[1][1]),d],c]},c),e=h(b,a[2]),f=a[1];return[0,h(aC(b),f),e,d]}function
-kg(c,g,f,b,a,e){if(b){var
+ki(c,g,f,b,a,e){if(b){var
 h=b[1],l=b[2],d=function(b,a){var
-d=gD(c,fE,fE,function(a){return pe(b,a)},e);return kg(c,g,aY(f),l,a,d)},i=d(0,aX(a,h));if(i){var
+d=gE(c,fE,fE,function(a){return pg(b,a)},e);return ki(c,g,aY(f),l,a,d)},i=d(0,aX(a,h));if(i){var
 j=d(2,G(a,h));if(j)return f?1:d(1,a);var
 k=j}else
 var
-k=i;return k}return au(g,a,gD(c,fE,fE,pf,e))}function
-kh(d,c,b,a){var
+k=i;return k}return au(g,a,gE(c,fE,fE,ph,e))}function
+kj(d,c,b,a){var
 f=X(e,b);function
-g(b){return a}return function(a){return kg(d,g,c,f,e,a)}}function
-dD(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return x(function(a){return aB(f,e,a)},d)}return[0,t]}function
-ph(f,e,k,j,i,a){var
+g(b){return a}return function(a){return ki(d,g,c,f,e,a)}}function
+dE(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return y(function(a){return aB(f,e,a)},d)}return[0,t]}function
+pj(f,e,k,j,i,a){var
 b=e7(a[1]);if(b){var
 c=a[2];if(c){var
-d=dD(a[3]);if(d){var
-l=d[1],m=X([0,B(N(r(f,i,c[1])),l),0],e);return aU(f,e,hj(k,j,b[1],m))}var
+d=dE(a[3]);if(d){var
+l=d[1],m=X([0,B(N(r(f,i,c[1])),l),0],e);return aV(f,e,hk(k,j,b[1],m))}var
 g=d}else
 var
 g=c;var
 h=g}else
 var
 h=b;return h}function
-pi(i,e,h,g,c){var
+pk(i,e,h,g,c){var
 a=e7(c[1]);if(a){var
-b=dD(c[3]);if(b){var
-j=X([0,B(t,b[1]),0],e),k=a[1];return aU(i,e,hj(h,g,d(function(a){return[0,a[1],t]},k),j))}var
+b=dE(c[3]);if(b){var
+j=X([0,B(t,b[1]),0],e),k=a[1];return aV(i,e,hk(h,g,d(function(a){return[0,a[1],t]},k),j))}var
 f=b}else
 var
 f=a;return f}function
-pj(a,c,D,i){var
+pl(a,c,D,i){var
 j=e7(i[1]);if(j){var
 k=i[2];if(k){var
-l=dD(i[3]);if(l){var
+l=dE(i[3]);if(l){var
 F=l[1],d=B(r(a,D,k[1]),F),b=j[1];if(b){var
 n=b[1],o=n[2];if(b[2]){var
-g=hk(a,b,X([0,d,0],c));if(g){var
+g=hl(a,b,X([0,d,0],c));if(g){var
 p=g[1],q=m(f(p),c);if(q)return eQ(a,p);var
 s=q}else
 var
 s=g;return s}var
 t=I(e,d[1]),u=t?I(e,o[1]):t;if(u){var
 A=E(d[1],o[1]),C=n[1];return I(an(function(a,b){var
-c=bQ(a);return G(E(bQ(a),c),b)},e,C),A)}return u}var
-h=hk(a,b,X([0,d,0],c));if(h){var
+c=bR(a);return G(E(bR(a),c),b)},e,C),A)}return u}var
+h=hl(a,b,X([0,d,0],c));if(h){var
 v=h[1],w=m(f(v),c);if(w)return eQ(a,v);var
 x=w}else
 var
@@ -4867,183 +4882,183 @@ y=k;var
 z=y}else
 var
 z=j;return z}function
-wB(c){var
+wF(c){var
 a=c[2];if(a){var
-b=dD(c[3]);if(b)return D(e,B(a[1],b[1])[1]);var
+b=dE(c[3]);if(b)return D(e,B(a[1],b[1])[1]);var
 d=b}else
 var
 d=a;return d}function
-ki(a){return y(function(a){return g(a[1],[0,a[2],0])},a)}function
-pk(a,c,b){var
+kk(a){return x(function(a){return g(a[1],[0,a[2],0])},a)}function
+pm(a,c,b){var
 d=q(b,c,n(e)),f=ax(0,a);return k(function(b){return e6(a,b,d)},f)}function
-gb(b){var
+gc(b){var
 c=_(b);return C(n(a),c)}function
-hX(i,g){var
-h=gb(g),j=_(g),d=A(n(a),j),f=u(n(c(2,a)),g),b=n(e);return i?i[1]?[0,[0,d,bC(f),b],[0,f,d,b],[0,b,b,h]]:[0,[0,d,b,f],[0,b,h,b],[0,bC(f),b,d]]:[0,[0,h,b,b],[0,b,d,bC(f)],[0,b,f,d]]}function
-gc(b,a){var
+hY(i,g){var
+h=gc(g),j=_(g),d=A(n(a),j),f=u(n(c(2,a)),g),b=n(e);return i?i[1]?[0,[0,d,bB(f),b],[0,f,d,b],[0,b,b,h]]:[0,[0,d,b,f],[0,b,h,b],[0,bB(f),b,d]]:[0,[0,h,b,b],[0,b,d,bB(f)],[0,b,f,d]]}function
+gd(b,a){var
 c=ac(b[3],a),d=ac(b[2],a);return[0,ac(b[1],a),d,c]}function
-pl(b,a){function
+pn(b,a){function
 c(b){var
 c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]}function
 d(a){var
 b=ac(a,c(function(a){return a[3]})),d=ac(a,c(function(a){return a[2]}));return[0,ac(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-pm(v,t){function
+po(v,t){function
 b(a){return[0,[0,P(t,a)]]}switch(v[0]){case
 0:var
-w=gb(b(0));return[0,hX(wC,b(0)),w];case
+w=gc(b(0));return[0,hY(wG,b(0)),w];case
 1:var
-x=gb(b(0)),y=u(gb(b(wD)),x),z=u(gb(b(wE)),y),B=hX(0,b(0)),D=pl(hX(wG,b(wF)),B);return[0,pl(hX(wI,b(wH)),D),z];default:var
-E=b(wJ),F=b(wK),g=[0,b(0),F,E],G=ac(g,g),H=C(n(a),G),j=ac(g,g),d=g[1],e=g[2],f=g[3],i=function(b){var
+x=gc(b(0)),y=u(gc(b(wH)),x),z=u(gc(b(wI)),y),B=hY(0,b(0)),D=pn(hY(wK,b(wJ)),B);return[0,pn(hY(wM,b(wL)),D),z];default:var
+E=b(wN),F=b(wO),g=[0,b(0),F,E],G=ac(g,g),H=C(n(a),G),j=ac(g,g),d=g[1],e=g[2],f=g[3],i=function(b){var
 d=_(b),e=u(n(c(2,a)),d);return C(A(n(a),j),e)},h=function(f,e,d,b){var
 g=au(f,u(e,d),b);return u(n(c(2,a)),g)},k=i(f),l=h(C,e,f,d),m=[0,h(A,d,f,e),l,k],o=h(A,e,f,d),p=i(e),q=[0,h(C,d,e,f),p,o],r=h(C,d,f,e),s=h(A,d,e,f);return[0,[0,[0,i(d),s,r],q,m],H]}}function
-pn(a){return 1<a[0]?[0,a[1],0]:0}function
-hY(a){switch(a[0]){case
+pp(a){return 1<a[0]?[0,a[1],0]:0}function
+hZ(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,dz(a[1]),0];default:var
-b=[0,dz(a[2]),0];return[0,dz(a[1]),b]}}function
+2:return[0,dA(a[1]),0];default:var
+b=[0,dA(a[2]),0];return[0,dA(a[1]),b]}}function
 e9(a){return[0,[0,a[1]],[0,a[2]]]}function
-po(a){switch(a[0]){case
+pq(a){switch(a[0]){case
 0:return[0,e9(a[1]),0];case
 1:var
 f=[0,e9(a[3]),0],g=[0,e9(a[2]),f];return[0,e9(a[1]),g];case
 2:var
-b=e9(dz(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
-c=a[2],d=a[1],e=[0,[1,dz(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,e9(dz(c)),0]]]}}function
-pp(b,c){if(0===c[0]){var
-g=c[1];return h(cA(b),g)}var
-i=c[1],d=h(cA(b),i);if(d){var
-j=c[2],e=h(cA(b),j);if(e){var
-k=Q(b,e[1]),l=cq(b,w(J(b,a),k)),m=d[1];return x(function(a){return r(b,m,a)},l)}var
+b=e9(dA(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
+c=a[2],d=a[1],e=[0,[1,dA(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,e9(dA(c)),0]]]}}function
+pr(b,c){if(0===c[0]){var
+g=c[1];return h(cB(b),g)}var
+i=c[1],d=h(cB(b),i);if(d){var
+j=c[2],e=h(cB(b),j);if(e){var
+k=Q(b,e[1]),l=cr(b,w(K(b,a),k)),m=d[1];return y(function(a){return r(b,m,a)},l)}var
 f=e}else
 var
 f=d;return f}function
-pq(d,c){var
-a=pp(d,c[1]);if(a)var
-b=pp(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+ps(d,c){var
+a=pr(d,c[1]);if(a)var
+b=pr(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-kj(a,d,c){var
+kl(a,d,c){var
 b=c[1];if(1===b[0]){var
-f=b[1];if(aE(f,a))return c;var
-g=n(e);return q(dO(f,a),d,g)}return[0,b9(function(b){return kj(a,d,b)},b)]}function
-hZ(g,a,m,f,c){var
-h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=hF(h,c),j=bS(f),b=d(function(b){return kj(a,j,b)},i),k=q(wP,b,n(e)),l=q(wQ,b,n(e));return[0,q(0,b,n(e)),l,k]}function
-bv(b,a){var
+f=b[1];if(aF(f,a))return c;var
+g=n(e);return q(dP(f,a),d,g)}return[0,b9(function(b){return kl(a,d,b)},b)]}function
+h0(g,a,m,f,c){var
+h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=hG(h,c),j=bT(f),b=d(function(b){return kl(a,j,b)},i),k=q(wT,b,n(e)),l=q(wU,b,n(e));return[0,q(0,b,n(e)),l,k]}function
+bu(b,a){var
 c=u(b[2],a[1]),d=A(u(b[1],a[2]),c),e=u(b[1],a[3]),f=A(u(b[3],a[1]),e),g=u(b[3],a[2]);return[0,A(u(b[2],a[3]),g),f,d]}function
 eb(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
-kk(c){function
+km(c){function
 b(b){var
 d=m(c,b)?a:e;return n(d)}var
-d=b(wR),f=b(wS);return[0,b(0),f,d]}function
-pr(e,d,c){function
-b(a){return[0,kk(a),0]}function
-a(a){return[0,bs(bv(kk(a),d),c),[0,a]]}switch(e){case
+d=b(wV),f=b(wW);return[0,b(0),f,d]}function
+pt(e,d,c){function
+b(a){return[0,km(a),0]}function
+a(a){return[0,br(bu(km(a),d),c),[0,a]]}switch(e){case
 0:var
-f=[0,a(wT),0],g=[0,b(wU),f];return[0,b(0),g];case
+f=[0,a(wX),0],g=[0,b(wY),f];return[0,b(0),g];case
 1:var
-h=[0,a(wV),0],i=[0,a(wW),h],j=[0,a(0),i],k=[0,b(wX),j],l=[0,b(wY),k];return[0,b(0),l];default:var
-m=[0,a(wZ),0],n=[0,a(w0),m];return[0,a(0),n]}}function
-ps(b,g,f,x,o,l){var
+h=[0,a(wZ),0],i=[0,a(w0),h],j=[0,a(0),i],k=[0,b(w1),j],l=[0,b(w2),k];return[0,b(0),l];default:var
+m=[0,a(w3),0],n=[0,a(w4),m];return[0,a(0),n]}}function
+pu(b,g,f,x,o,l){var
 h=l[1];function
 d(c,a){var
 d=h[3],f=eb(a,b[3]),g=u(C(c[3],f),d),i=h[2],j=eb(a,b[2]),k=u(C(c[2],j),i),l=h[1],m=eb(a,b[1]),o=u(C(c[1],m),l);return C(C(C(n(e),o),k),g)}var
-t=d(b[3],w1),v=d(b[2],w2),w=[0,d(b[1],0),v,t],i=ac(o[1],w),p=o[2];if(p){var
+t=d(b[3],w5),v=d(b[2],w6),w=[0,d(b[1],0),v,t],i=ac(o[1],w),p=o[2];if(p){var
 j=p[1],q=l[2];if(q){var
 k=q[1],y=eb(j,f),z=u(eb(k,g),y),B=eb(k,f),r=C(u(eb(j,g),B),z),D=_(x);if(m(j,k))var
 E=ac(g,f),s=A(r,u(n(c(2,a)),E));else
 var
-s=r;return C(i,ak(s,D))}return i}return i}function
-kl(b,a){if(a)var
-e=kl(b,a[2]),c=[0,d(h(b,a[1]),a),e];else
+s=r;return C(i,aj(s,D))}return i}return i}function
+kn(b,a){if(a)var
+e=kn(b,a[2]),c=[0,d(h(b,a[1]),a),e];else
 var
 c=a;return c}function
-gd(c,b,a){switch(c){case
+ge(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-pt(a){if(a){var
-f=a[1],b=f[2],c=hW(f[1]);if(c)if(b)var
-d=pt(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
+pv(a){if(a){var
+f=a[1],b=f[2],c=hX(f[1]);if(c)if(b)var
+d=pv(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
 var
 e=b;else
 var
-e=c;return e}return w3}function
-pu(c,b,a){var
+e=c;return e}return w7}function
+pw(c,b,a){var
 d=M(b,a);return an(function(a,d){var
-b=bQ(a[2]);return w(r(c,a[1],[0,b,b]),d)},t,d)}function
-pv(b,h,e,f,d){if(e)if(d)var
-i=d[1],o=pv(b,h,e[2],f,d[2]),p=i[2],q=aw(h,i[1]),c=e[1],j=aj(r(b,c[3],f)),k=c[3],l=w(aj(b8(p,J(b,a),k)),j),m=r(b,c[2],l),n=r(b,c[1],f),g=[0,bR(w(w(aj(pu(b,c[4],q)),n),m)),o];else
+b=bR(a[2]);return w(r(c,a[1],[0,b,b]),d)},t,d)}function
+px(b,h,e,f,d){if(e)if(d)var
+i=d[1],o=px(b,h,e[2],f,d[2]),p=i[2],q=aw(h,i[1]),c=e[1],j=ak(r(b,c[3],f)),k=c[3],l=w(ak(bQ(p,K(b,a),k)),j),m=r(b,c[2],l),n=r(b,c[1],f),g=[0,bS(w(w(ak(pw(b,c[4],q)),n),m)),o];else
 var
 g=d;else
 var
 g=e;return g}function
-w5(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
-pw(b,a){return ad(d(function(a){return q(a,b,0)},a))}function
-bY(a){switch(a){case
-0:return w9;case
-1:return w_;default:return 0}}function
+w9(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
+py(b,a){return ad(d(function(a){return q(a,b,0)},a))}function
+bZ(a){switch(a){case
+0:return xb;case
+1:return xc;default:return 0}}function
 ec(a){switch(a){case
-0:return[0,xa,w$,n(e)];case
-1:return dY;default:var
+0:return[0,xe,xd,n(e)];case
+1:return dZ;default:var
 b=n(e),c=n(e);return[0,n(e),c,b]}}function
-h0(c,b,a){return bs(gc(c,a),b)}function
-px(b,a){if(b)return[0,[0,[0,a]],[0,[0,[0,a]]],[0,[0,[0,[0,a]]]]];var
+h1(c,b,a){return br(gd(c,a),b)}function
+pz(b,a){if(b)return[0,[0,[0,a]],[0,[0,[0,a]]],[0,[0,[0,[0,a]]]]];var
 c=n(e);return[0,n(e),c,[0,[0,a]]]}function
-km(b){var
-d=ac(b,b),e=C(n(a),d);return ak(n(c(2,a)),e)}function
-py(a,b){var
-c=bv(a,b),d=ah(C,c,bv(a,c));return ah(C,b,a$(km(a),d))}function
-pz(h,g,f,e,d,c){var
-b=py(c,h0(g,f,d)),a=ah(A,ah(C,ec(h),b),e);return[0,[0,b,a],aQ(ac(a,a))]}function
+ko(b){var
+d=ac(b,b),e=C(n(a),d);return aj(n(c(2,a)),e)}function
+pA(a,b){var
+c=bu(a,b),d=ah(C,c,bu(a,c));return ah(C,b,a$(ko(a),d))}function
+pB(h,g,f,e,d,c){var
+b=pA(c,h1(g,f,d)),a=ah(A,ah(C,ec(h),b),e);return[0,[0,b,a],aR(ac(a,a))]}function
 as(a){return typeof
-a==="number"?a?xb:xc:bM(a[1])}function
-kn(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:kc(b[1],a,c)}function
+a==="number"?a?xf:xg:bM(a[1])}function
+kp(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:ke(b[1],a,c)}function
 ed(b){if(0===b[0]){var
 c=b[1];switch(c[0]){case
 0:return c[3];case
 1:return c[2];default:return[0,[0,e,a],[0,e,a],[0,e,a]]}}return b[1][4]}function
-ee(b,c,a){return b?dy(b[1],c,a):a}function
+ee(b,c,a){return b?dz(b[1],c,a):a}function
 bl(d,c,b,a){var
 e=ed(a),f=ee(d,c,ed(a)),g=O(function(b,a){return[2,b,a]},b,f);return O(function(b,a){return[3,b,a]},g,e)}function
-pA(h,g,d,c,f,b){if(0===b[0])var
+pC(h,g,d,c,f,b){if(0===b[0])var
 i=bl(d,c,f,b),e=cc(b[1],i);else
 var
-j=bl(d,c,f,b),e=ka(b[1],j);return kn(h,e,T([5,[0,a,a],g],cz(ee(d,c,ed(b)),e)))}function
+j=bl(d,c,f,b),e=kc(b[1],j);return kp(h,e,T([5,[0,a,a],g],cA(ee(d,c,ed(b)),e)))}function
 e_(d,c,b,a){if(0===a[0]){var
 f=bl(d,c,b,a);return[0,c3(a[1],f)]}var
-e=a[1],g=j_(e,bl(d,c,b,a));return[1,j9(e,bl(d,c,b,a)),g]}function
-ko(b,a){var
+e=a[1],g=ka(e,bl(d,c,b,a));return[1,j$(e,bl(d,c,b,a)),g]}function
+kq(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-kp(e,d,c,a){if(0===a[0]){var
-f=bl(e,d,c,a),b=j2(a[1],f),g=b?[0,b[1],0]:b;return g}var
-h=bl(e,d,c,a);return[0,j8(a[1],h),0]}function
-pB(b,f,d){if(0===f[0])return 0===d[0]?oJ(b,f[1],d[1]):0;if(0===d[0])return 0;var
-a=d[1],c=f[1],g=bE(b,c[1],a[1]),h=g?bE(b,c[2],a[2]):g,j=h?bE(b,c[3],a[3]):h,k=j?bE(b,c[4],a[4]):j,l=k?dw(b,c[5],a[5]):k,m=l?dw(b,c[6],a[6]):l,n=m?i(b,1,a[5]):m,o=n?i(b,1,a[6]):n,p=o?i(b,1,v(a[1],a[1])):o;if(p)var
-q=j7(a),e=i(b,1,v(j7(a),q));else
+kr(e,d,c,a){if(0===a[0]){var
+f=bl(e,d,c,a),b=j4(a[1],f),g=b?[0,b[1],0]:b;return g}var
+h=bl(e,d,c,a);return[0,j_(a[1],h),0]}function
+pD(b,f,d){if(0===f[0])return 0===d[0]?oL(b,f[1],d[1]):0;if(0===d[0])return 0;var
+a=d[1],c=f[1],g=bD(b,c[1],a[1]),h=g?bD(b,c[2],a[2]):g,j=h?bD(b,c[3],a[3]):h,k=j?bD(b,c[4],a[4]):j,l=k?dx(b,c[5],a[5]):k,m=l?dx(b,c[6],a[6]):l,n=m?i(b,1,a[5]):m,o=n?i(b,1,a[6]):n,p=o?i(b,1,v(a[1],a[1])):o;if(p)var
+q=j9(a),e=i(b,1,v(j9(a),q));else
 var
-e=p;return e?cN(c[7],a[7]):e}function
+e=p;return e?cp(c[7],a[7]):e}function
 e$(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=pB(g,b[1],a[1]);if(c){var
+c=pD(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-h1(c,b,g,a){var
+h2(c,b,g,a){var
 d=c2(c,b[4],g);if(d){var
-e=b[5];if(e)return f$(c,e[1],a);if(a)return 0;var
+e=b[5];if(e)return ga(c,e[1],a);if(a)return 0;var
 f=1}else
 var
 f=d;return f}function
-ge(a){return typeof
-a==="number"?xd:2<=a[1]?xe:xf}function
-pC(v,m,l){if(l){var
+gf(a){return typeof
+a==="number"?xh:2<=a[1]?xi:xj}function
+pE(v,m,l){if(l){var
 b=l[1],d=function(c,b){return i(v,1,[3,[0,b,a],c])},g=function(a){return[3,a[2],a[1]]};switch(b[0]){case
 0:var
 n=c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),f=d(g(b[1]),n);break;case
@@ -5067,20 +5082,20 @@ k=m(b[1],d)?a:e;return n(k);case
 l=ce(d,b[2]);return C(ce(d,b[1]),l);case
 4:var
 o=ce(d,b[2]);return A(ce(d,b[1]),o);case
-5:return bC(ce(d,b[1]));case
+5:return bB(ce(d,b[1]));case
 6:var
 g=b[2],h=b[1],p=u(h,ce(d,g));return C(u(g,ce(d,h)),p);case
 7:var
-f=ce(d,b[1]);return bf(e,f)?f:ak(f,b[2]);case
+f=ce(d,b[1]);return bf(e,f)?f:aj(f,b[2]);case
 8:var
 i=b[1],q=ce(d,i);return u(u(n(c(2,a)),i),q);default:return n(e)}}function
-h2(c,b,k){var
+h3(c,b,k){var
 d=k;for(;;){var
 a=d[1];switch(a[0]){case
 7:var
-g=h2(c,b,a[1]);if(g){var
+g=h3(c,b,a[1]);if(g){var
 h=a[2][1];if(1===h[0]){var
-i=h[1],j=I(e,q(i,c,t)[1]);return j?L(ag(function(a){return m(i,a)},b)):j}return 0}return g;case
+i=h[1],j=I(e,q(i,c,t)[1]);return j?J(ag(function(a){return m(i,a)},b)):j}return 0}return g;case
 5:case
 8:var
 d=a[1];continue;case
@@ -5089,9 +5104,9 @@ d=a[1];continue;case
 3:case
 4:case
 6:var
-f=h2(c,b,a[1]);if(f){var
+f=h3(c,b,a[1]);if(f){var
 d=a[2];continue}return f;default:return 1}}}function
-pD(d){var
+pF(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 0:case
@@ -5102,72 +5117,72 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-c=pD(a[1]);if(c){var
+c=pF(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-pE(c,b,a){var
+pG(c,b,a){var
 e=d(b,a[2]);return[0,h(c,a[1]),e]}function
-kq(b,a,c){return d(function(c){var
-e=pE(b,a,c[2]),f=c[1];return[0,d(function(c){return pE(b,a,c)},f),e]},c)}function
-pF(b,a){return x(function(a){var
+ks(b,a,c){return d(function(c){var
+e=pG(b,a,c[2]),f=c[1];return[0,d(function(c){return pG(b,a,c)},f),e]},c)}function
+pH(b,a){return y(function(a){var
 c=a[2],d=a[1][2];return[0,[0,h(b,a[1][1]),d],c]},a)}function
-xg(a,b){var
-c=pF(a,b[3]),d=h(a,b[2]);return[0,kq(a,a,b[1]),d,c]}function
-pG(c){var
+xk(a,b){var
+c=pH(a,b[3]),d=h(a,b[2]);return[0,ks(a,a,b[1]),d,c]}function
+pI(c){var
 a=c[1];if(a){var
-b=hW(c[2]);if(b)var
+b=hX(c[2]);if(b)var
 g=d(R,b[1]),e=[0,[0,R(a[1]),g]];else
 var
 e=b;var
 f=e}else
 var
 f=a;return f}function
-xh(c){var
-a=ad(d(pG,c[1]));if(a)var
-b=pG(c[2]),f=b?[0,[0,a[1],b[1]]]:b,e=f;else
+xl(c){var
+a=ad(d(pI,c[1]));if(a)var
+b=pI(c[2]),f=b?[0,[0,a[1],b[1]]]:b,e=f;else
 var
 e=a;return e}function
-xi(a){return L(fQ([0,a[2],a[1]]))}function
-kr(a){return[0,a[1],a[2]]}function
-pH(b,c,a){var
+xm(a){return J(fQ([0,a[2],a[1]]))}function
+kt(a){return[0,a[1],a[2]]}function
+pJ(b,c,a){var
 e=d(function(c){return bN(b,ce(c,a))},c);return[0,bN(b,a),e]}function
-ks(b,e,a,d){var
-c=y(function(a){var
-b=kr(a[2]);return g(y(kr,a[1]),b)},d),f=a?[0,bN(b,a[1]),0]:a,h=g(f,c);return[0,bN(b,e),h]}function
-pI(c,f,b,a){var
-d=h2(f,b,a),e=d?hU(c,a):d;return e?k(function(b){return hU(c,ce(b,a))},b):e}function
-pJ(a){switch(a[0]){case
+ku(b,e,a,d){var
+c=x(function(a){var
+b=kt(a[2]);return g(x(kt,a[1]),b)},d),f=a?[0,bN(b,a[1]),0]:a,h=g(f,c);return[0,bN(b,e),h]}function
+pK(c,f,b,a){var
+d=h3(f,b,a),e=d?hV(c,a):d;return e?k(function(b){return hV(c,ce(b,a))},b):e}function
+pL(a){switch(a[0]){case
 3:var
-d=ki(a[2]);return[0,a[3],d];case
+d=kk(a[2]);return[0,a[3],d];case
 4:return[0,a[1],0];case
 8:var
-b=a[1],e=ki(b[1]);return[0,b[2],e];case
+b=a[1],e=kk(b[1]);return[0,b[2],e];case
 9:return 0;default:var
-c=ki(a[1]);return[0,a[2],c]}}function
-pK(b,au,bc,l,o,at,as,y,P,j,i){switch(j[0]){case
+c=kk(a[1]);return[0,a[2],c]}}function
+pM(b,au,bc,l,o,at,as,x,P,j,i){switch(j[0]){case
 0:var
 av=j[4],S=j[3],aw=j[2],ax=j[1],V=0;if(typeof
 i==="number")V=1;else
 switch(i[0]){case
 0:var
-bd=i[2],be=i[1],u=aw,t=ax,s=function(a){return ph(b,o,be,bd,S,a)},p=av;break;case
+bd=i[2],be=i[1],u=aw,t=ax,s=function(a){return pj(b,o,be,bd,S,a)},p=av;break;case
 2:var
 ay=H(S[1],e),az=ay?H(S[2],e):ay;if(!az)return az;var
-bh=i[2],bi=i[1],u=aw,t=ax,s=function(a){return pi(b,o,bi,bh,a)},p=av;break;default:V=1}if(V)return 0;break;case
+bh=i[2],bi=i[1],u=aw,t=ax,s=function(a){return pk(b,o,bi,bh,a)},p=av;break;default:V=1}if(V)return 0;break;case
 1:var
 aK=0;if(typeof
 i==="number"&&!i)var
-bj=j[2],bk=j[1],bl=j[3],u=bj,t=bk,bm=0,s=function(a){return pj(b,o,bl,a)},p=bm;else
+bj=j[2],bk=j[1],bl=j[3],u=bj,t=bk,bm=0,s=function(a){return pl(b,o,bl,a)},p=bm;else
 aK=1;if(aK)return 0;break;case
 2:if(typeof
 i!=="number"&&3===i[0]){var
 z=i[3];if(z){var
 aA=z[2],aC=m(f(aA),l);if(aC){var
-bn=[0,j[1],j[2],P],bo=e8(function(a){return q(a,y,xl)},bn),aD=i[1],bp=0,bq=z[1],bs=i[2],bt=j[3],bu=function(x,i){var
+bn=[0,j[1],j[2],P],bo=e8(function(a){return q(a,x,xp)},bn),aD=i[1],bp=0,br=z[1],bs=i[2],bt=j[3],bu=function(x,i){var
 c=e7(i[1]);if(c){var
 j=c[1],d=i[2];if(d){var
-f=dD(i[3]);if(f){var
-k=f[1],l=function(c){return aB(c,aD,J(b,a))},u=l(x),v=d[1],g=w(r(b,l(bq),v),u),m=I(e,g[1]),n=m?aU(b,o,hj(aD,bs,j,X([0,B(N(g),k),0],o))):m;if(n){var
-h=hk(b,j,X([0,B(r(b,bt,g),k),0],o));if(h)return aU(b,o,h[1]);var
+f=dE(i[3]);if(f){var
+k=f[1],l=function(c){return aB(c,aD,K(b,a))},u=l(x),v=d[1],g=w(r(b,l(br),v),u),m=I(e,g[1]),n=m?aV(b,o,hk(aD,bs,j,X([0,B(N(g),k),0],o))):m;if(n){var
+h=hl(b,j,X([0,B(r(b,bt,g),k),0],o));if(h)return aV(b,o,h[1]);var
 p=h}else
 var
 p=n;var
@@ -5179,10 +5194,10 @@ var
 s=d;var
 t=s}else
 var
-t=c;return t};return kg(function(b,a){return e8},bu,bp,aA,e,bo)}var
-aF=aC}else
+t=c;return t};return ki(function(b,a){return e8},bu,bp,aA,e,bo)}var
+aE=aC}else
 var
-aF=z;return aF}return 0;case
+aE=z;return aE}return 0;case
 3:var
 aM=0;if(typeof
 i==="number"||!(0===i[0]))aM=1;else
@@ -5190,9 +5205,9 @@ var
 aG=i[2],aH=i[1],bv=j[3],bw=j[2],bx=j[4],by=j[1],bz=function(g){var
 a=e7(g[1]);if(a){var
 c=a[1],d=g[2];if(d){var
-e=dD(g[3]);if(e){var
+e=dE(g[3]);if(e){var
 h=m(f(c),o),i=h?m(f(aG),o):h;if(i){var
-n=dZ(aH,d0(aH,aG,d[1],c));return aU(b,o,aL(hp(b,by,bx,e[1],c),n))}var
+n=d0(aH,d1(aH,aG,d[1],c));return aV(b,o,aL(hq(b,by,bx,e[1],c),n))}var
 j=i}else
 var
 j=e;var
@@ -5205,14 +5220,14 @@ l=a;return l},u=bv,t=bw,s=bz,p=j[5];if(aM)return 0;break;case
 4:var
 aN=0;if(typeof
 i==="number"&&!i)var
-u=j[1],t=0,s=wB,p=0;else
+u=j[1],t=0,s=wF,p=0;else
 aN=1;if(aN)return 0;break;case
 5:var
 aO=0;if(typeof
 i==="number"||!(0===i[0]))aO=1;else{var
 A=i[2],aP=0;if(A){var
 C=A[1];if(C){if(C[2])return 0;if(A[2])return 0;var
-bA=j[2],bB=j[1],bC=J(b,a),bE=[0,[0,C[1],0],0],bF=i[1],u=bA,t=bB,bG=0,s=function(a){return ph(b,xm,bF,bE,bC,a)},p=bG;aP=1}else
+bA=j[2],bB=j[1],bD=K(b,a),bE=[0,[0,C[1],0],0],bF=i[1],u=bA,t=bB,bG=0,s=function(a){return pj(b,xq,bF,bE,bD,a)},p=bG;aP=1}else
 var
 aI=C}else
 var
@@ -5220,60 +5235,60 @@ aI=A;if(!aP)return aI}if(aO)return 0;break;case
 6:var
 aQ=0;if(typeof
 i==="number"&&!i)var
-bH=j[2],bI=j[1],bJ=J(b,a),u=bH,t=bI,bK=0,s=function(a){return pj(b,xn,bJ,a)},p=bK;else
+bH=j[2],bI=j[1],bJ=K(b,a),u=bH,t=bI,bK=0,s=function(a){return pl(b,xr,bJ,a)},p=bK;else
 aQ=1;if(aQ)return 0;break;case
 7:var
 aR=0;if(typeof
 i==="number"&&5<=i)var
-bL=j[2],bM=j[1],bN=j[4],bO=j[3],u=bL,t=bM,bQ=0,s=function(a){return pi(b,o,bO,bN,a)},p=bQ;else
+bL=j[2],bM=j[1],bN=j[4],bO=j[3],u=bL,t=bM,bR=0,s=function(a){return pk(b,o,bO,bN,a)},p=bR;else
 aR=1;if(aR)return 0;break;case
 8:if(typeof
 i!=="number"&&9===i[0]){var
-T=i[4],aJ=i[2],U=i[1],n=j[1],v=n[9],bS=i[3],aS=n[5],aT=bD(g(cQ(n[4]),aS),au),aV=d(R,bc),W=dk(0,b_(b,nI(n[9],l,at,n[7],n[8]),aV),aT,au),Y=mF(T,e);if(Y)var
+T=i[4],aJ=i[2],U=i[1],n=j[1],v=n[9],bT=i[3],aS=n[5],aT=bC(g(cQ(n[4]),aS),au),aU=d(R,bc),W=dk(0,b_(b,nK(n[9],l,at,n[7],n[8]),aU),aT,au),Y=mH(T,e);if(Y)var
 D=Y;else
 var
-aq=mG(T,c(2,c(2,c(2,c(2,a))))),ar=aq?aE(0,v):aq,D=ar?aE(v,l):ar;var
+aq=mI(T,c(2,c(2,c(2,c(2,a))))),ar=aq?aF(0,v):aq,D=ar?aF(v,l):ar;var
 Z=D?ae(v,l):D,_=Z?m(f(at),l):Z,$=_?m(f(aJ),l):_,aa=$?m(f(n[1]),l):$,ab=aa?m(f(n[6]),l):aa,ac=ab?m(f(n[4]),l):ab;if(ac)var
 aW=n[4],E=k(function(a){return m(f(a),l)},aW);else
 var
 E=ac;if(E){var
-aX=n[4],F=ad(d(function(a){return pw(W,a)},aX));if(F){var
-af=pw(W,n[5]);if(af){var
+aX=n[4],F=ad(d(function(a){return py(W,a)},aX));if(F){var
+af=py(W,n[5]);if(af){var
 aZ=n[6],G=ad(d(function(j){var
 c=j[1],k=n[7],e=q(c[1],as,0);if(e){var
 h=c[2][2],a=ad(d(function(a){var
-b=q(a[2],as,0);return x(function(a){return a[2]},b)},h));if(a)var
-i=a[1],f=[0,bR(aj(r(b,k,Q(b,pu(b,d(ao,c[2][2]),i)))))];else
+b=q(a[2],as,0);return y(function(a){return a[2]},b)},h));if(a)var
+i=a[1],f=[0,bS(ak(r(b,k,Q(b,pw(b,d(ap,c[2][2]),i)))))];else
 var
 f=a;var
 g=f}else
 var
 g=e;return g},aZ));if(G){var
-a0=n[1],a1=n[2],K=ad(d(function(m){function
+a0=n[1],a1=n[2],J=ad(d(function(m){function
 f(e){var
-g=X(e,l),c=pg(q(m[2],y,w6),g);if(c){var
-h=X(e,l),d=pg(q(a1,y,w7),h);if(d){var
-i=d[1],j=J(b,a);return cq(b,br(b8(c[1],j,i)))}var
+g=X(e,l),c=pi(q(m[2],x,w_),g);if(c){var
+h=X(e,l),d=pi(q(a1,x,w$),h);if(d){var
+i=d[1],j=K(b,a);return cr(b,bq(bQ(c[1],j,i)))}var
 f=d}else
 var
 f=c;return f}var
 c=f(0);if(c){var
 d=f(2);if(d)var
-g=br(aj(w(c[1],d[1]))),h=I(e,g[1]),k=h?[0,g]:h,i=k;else
+g=bq(ak(w(c[1],d[1]))),h=I(e,g[1]),k=h?[0,g]:h,i=k;else
 var
 i=d;var
 j=i}else
 var
-j=c;return j},a0));if(K){var
-ag=nC(b,l,v,F[1]),L=aB(bS,U,J(b,a)),ah=I(e,B(L,ag)[1]);if(ah){var
+j=c;return j},a0));if(J){var
+ag=nE(b,l,v,F[1]),L=aB(bT,U,K(b,a)),ah=I(e,B(L,ag)[1]);if(ah){var
 O=bP(b,L);if(O){var
-a2=aj(r(b,ag,O[1])),a3=B(J(b,a),a2),a5=[0,n[1],n[2],P],a6=e8(function(a){return q(a,y,w8)},a5),a7=n[6],a8=d(w5,M(M(G[1],K[1]),a7)),a9=Q(b,a3),a_=Q(b,L),a$=nD(l,v,n[10],T),ba=function(n){var
-a=pt(n[1]);if(a){var
+a2=ak(r(b,ag,O[1])),a3=B(K(b,a),a2),a5=[0,n[1],n[2],P],a6=e8(function(a){return q(a,x,xa)},a5),a7=n[6],a8=d(w9,M(M(G[1],J[1]),a7)),a9=Q(b,a3),a_=Q(b,L),a$=nF(l,v,n[10],T),ba=function(n){var
+a=pv(n[1]);if(a){var
 o=a[1],c=n[2];if(c){var
-e=c[1],h=dD(n[3]);if(h){var
-p=h[1],q=pv(b,l,a8,e,o),i=d(function(a){var
-b=a[2];return[0,nE(a$,a[1]),b]},o),z=dZ(U,d0(U,aJ,e,i)),j=aL(X([0,N(p),0],l),z),A=B(r(b,e,a9),p),s=m(f(i),l),t=s?m(f(q),l):s,u=t?nG(l,j):t,v=u?aU(b,l,aL(d(function(a){return[0,N(r(b,a_,a[2])),0]},i),j)):u;if(v){var
-C=a4(aY(l));return k(function(a){return aU(b,[0,l],nF(j,nH(g(a,w4),q),A))},C)}var
+e=c[1],h=dE(n[3]);if(h){var
+p=h[1],q=px(b,l,a8,e,o),i=d(function(a){var
+b=a[2];return[0,nG(a$,a[1]),b]},o),z=d0(U,d1(U,aJ,e,i)),j=aL(X([0,N(p),0],l),z),A=B(r(b,e,a9),p),s=m(f(i),l),t=s?m(f(q),l):s,u=t?nI(l,j):t,v=u?aV(b,l,aL(d(function(a){return[0,N(r(b,a_,a[2])),0]},i),j)):u;if(v){var
+C=a4(aY(l));return k(function(a){return aV(b,[0,l],nH(j,nJ(g(a,w8),q),A))},C)}var
 w=v}else
 var
 w=h;var
@@ -5282,14 +5297,14 @@ var
 x=c;var
 y=x}else
 var
-y=a;return y},bb=n[3];return h(kh(function(b,a){return e8},bb,l,ba),a6)}var
+y=a;return y},bb=n[3];return h(kj(function(b,a){return e8},bb,l,ba),a6)}var
 ai=O}else
 var
 ai=ah;var
-ak=ai}else
+aj=ai}else
 var
-ak=K;var
-al=ak}else
+aj=J;var
+al=aj}else
 var
 al=G;var
 am=al}else
@@ -5298,77 +5313,77 @@ am=af;var
 an=am}else
 var
 an=F;var
-ap=an}else
+ao=an}else
 var
-ap=E;return ap}return 0;default:return 0}var
-bf=[0,t,u,P],bg=e8(function(a){return q(a,y,xk)},bf);return h(kh(function(b,a){return e8},p,l,s),bg)}function
-xo(b,a){var
-c=jm(g1,b[1],a[1]);return c?g1(b[2],a[2]):c}function
-pL(c,b){var
-a=jm(xo,c,b),d=a?1:a;return d}function
-pM(j,s,r,i,q,k,p,o,n,h,l,g,b,d){if(typeof
+ao=E;return ao}return 0;default:return 0}var
+bf=[0,t,u,P],bg=e8(function(a){return q(a,x,xo)},bf);return h(kj(function(b,a){return e8},p,l,s),bg)}function
+xs(b,a){var
+c=jn(g2,b[1],a[1]);return c?g2(b[2],a[2]):c}function
+pN(c,b){var
+a=jn(xs,c,b),d=a?1:a;return d}function
+pO(j,s,r,i,q,k,p,o,n,h,l,g,b,d){if(typeof
 d==="number"){if(0===d)return 9===b[0]?eX(j,0,0,0,g,i,0,b[1],d):0}else
 switch(d[0]){case
 6:var
 f=d[1];if(typeof
 f!=="number"&&7===f[0]){if(k){var
-t=f[3],u=f[2],v=D(e,u),w=v?fG(t,c(2,c(2,c(2,c(2,c(2,c(2,a))))))):v;if(w)return pK(j,s,r,i,q,h,g,l,[0,[0,[0,k[1],u],t]],b,f[1]);var
+t=f[3],u=f[2],v=D(e,u),w=v?fG(t,c(2,c(2,c(2,c(2,c(2,c(2,a))))))):v;if(w)return pM(j,s,r,i,q,h,g,l,[0,[0,[0,k[1],u],t]],b,f[1]);var
 x=w}else
 var
-x=k;return x}return pK(j,s,r,i,q,h,g,l,0,b,f);case
+x=k;return x}return pM(j,s,r,i,q,h,g,l,0,b,f);case
 8:return 9===b[0]?eX(j,0,0,0,g,i,0,b[1],d):0;case
 10:if(0===b[0]){var
-y=pL(b[1],p),z=y?m(b[2],o):y;return z?gD(n,h,b[3],b[4],d):z}return 0;case
+y=pN(b[1],p),z=y?m(b[2],o):y;return z?gE(n,h,b[3],b[4],d):z}return 0;case
 12:if(0===b[0]){var
-A=pL(b[1],p),B=A?m(b[2],o):A;return B?gD(n,h,b[3],b[4],d):B}return 0}return 0}function
-pN(b){var
+A=pN(b[1],p),B=A?m(b[2],o):A;return B?gE(n,h,b[3],b[4],d):B}return 0}return 0}function
+pP(b){var
 a=b[2];if(typeof
 a!=="number"&&6===a[0])return 1;return 0}function
-xp(c){var
+xt(c){var
 b=0,a=c[2];if(typeof
 a==="number"){if(0!==a)b=1}else
 switch(a[0]){case
 6:case
 8:break;default:b=1}return b?0:1}function
-xq(a){switch(a[0]){case
+xu(a){switch(a[0]){case
 8:return 0;case
-9:return jT(a[1]);default:return 1}}function
-gf(a,o,m,j,A,z,b,v,u,D,i,l,aq,c){switch(c[0]){case
+9:return jV(a[1]);default:return 1}}function
+gg(a,o,m,j,A,z,b,v,u,D,i,l,aq,c){switch(c[0]){case
 0:var
-ar=function(a){return k(L,a)},R=ar,p=c[1];break;case
+ar=function(a){return k(J,a)},R=ar,p=c[1];break;case
 1:var
 as=c[4],at=c[3],au=c[2],av=function(c){var
-d=ds(au,l),e=gf(a,o,m,j,A,z,b,v,u,D,i,d[1],c,at);return e?gf(a,o,m,j,A,z,b,v,u,D,i,d[2],c,as):e},R=av,p=c[1];break;default:var
+d=ds(au,l),e=gg(a,o,m,j,A,z,b,v,u,D,i,d[1],c,at);return e?gg(a,o,m,j,A,z,b,v,u,D,i,d[2],c,as):e},R=av,p=c[1];break;default:var
 aw=c[4],ax=c[3],ay=c[2],az=function(c){var
-d=os(xq,j,c);if(d){var
-e=ds(ay,i),f=gf(a,o,m,j,A,z,b,v,u,D,e[1],l,c,ax);if(f)return gf(a,o,m,j,A,z,b,v,u,D,e[2],l,c,aw);var
+d=ou(xu,j,c);if(d){var
+e=ds(ay,i),f=gg(a,o,m,j,A,z,b,v,u,D,e[1],l,c,ax);if(f)return gg(a,o,m,j,A,z,b,v,u,D,e[2],l,c,aw);var
 g=f}else
 var
 g=d;return g},R=az,p=c[1]}var
-ae=h(D,i),ab=ag(xp,p),ac=ab?jO(a,m,i,bD(y(function(c){var
+ae=h(D,i),ab=ag(xt,p),ac=ab?jQ(a,m,i,bC(x(function(c){var
 a=F(j,c[1]);if(a){var
 b=a[1];switch(b[0]){case
 8:var
-e=b[1][6];return y(function(a){var
-b=d(aH,a[1][2][2]);return[0,a[1][1],b]},e);case
-9:return eY(0,0,0,b[1],c[2]);default:return 0}}return a},p),m),l):ab,ad=ag(pN,p);if(ad)var
-an=y(function(b){var
-c=pN(b);if(c){var
-a=F(j,b[1]);if(a)return pJ(a[1]);var
+e=b[1][6];return x(function(a){var
+b=d(aE,a[1][2][2]);return[0,a[1][1],b]},e);case
+9:return eY(0,0,0,b[1],c[2]);default:return 0}}return a},p),m),l):ab,ad=ag(pP,p);if(ad)var
+an=x(function(b){var
+c=pP(b);if(c){var
+a=F(j,b[1]);if(a)return pL(a[1]);var
 d=a}else
 var
-d=c;return d},p),ap=b?[0,b[1],0]:b,ai=m1(g(ap,an),o),P=kf(a,i,eI(hV(eI(o,0),ai),0),l);else
+d=c;return d},p),ao=b?[0,b[1],0]:b,ai=m3(g(ao,an),o),P=kh(a,i,eI(hW(eI(o,0),ai),0),l);else
 var
 P=ad;var
 s=p,f=aq;for(;;){if(s){var
 U=s[1],E=U[2],n=U[1],H=s[2];if(n){var
 V=q(n,f,0);if(V){var
-K=F(j,n);if(K){var
-W=pM(a,m,i,A,z,b,v,u,ae,l,P,ac,K[1],E);if(W){var
-s=H,f=hE(n,f);continue}var
+L=F(j,n);if(L){var
+W=pO(a,m,i,A,z,b,v,u,ae,l,P,ac,L[1],E);if(W){var
+s=H,f=hF(n,f);continue}var
 X=W}else
 var
-X=K;var
+X=L;var
 Y=X}else
 var
 Y=V;var
@@ -5376,25 +5391,25 @@ C=Y}else{var
 af=0;if(typeof
 E==="number"&&4===E){var
 ah=0;if(b){var
-am=0,S=d(function(b){return[0,b,Q(a,b)]},l),aj=d(aH,S),ak=g(d(ao,S),aj),al=cS(0,function(o){return function(b){switch(b[0]){case
+am=0,S=d(function(b){return[0,b,Q(a,b)]},l),aj=d(aE,S),ak=g(d(ap,S),aj),al=cS(0,function(o){return function(b){switch(b[0]){case
 0:return[0,q(b[1],o,t)];case
 1:return[0,q(b[1],i,t)];case
-2:return[0,J(a,b[1])];case
+2:return[0,K(a,b[1])];case
 3:var
-c=b[2],d=b[1];return dC(function(b,a){return[0,w(b,a)]},d,c);case
+c=b[2],d=b[1];return dD(function(b,a){return[0,w(b,a)]},d,c);case
 4:var
-e=b[2],f=b[1];return dC(function(b,a){return[0,B(b,a)]},f,e);case
+e=b[2],f=b[1];return dD(function(b,a){return[0,B(b,a)]},f,e);case
 5:var
-g=b[1];return dB(function(a){return[0,N(a)]},g);case
+g=b[1];return dC(function(a){return[0,N(a)]},g);case
 6:var
-h=b[2],j=b[1];return dC(function(c,b){return[0,r(a,c,b)]},j,h);case
+h=b[2],j=b[1];return dD(function(c,b){return[0,r(a,c,b)]},j,h);case
 7:var
-k=b[2],l=b[1];return dC(function(c,b){var
-d=bP(a,b);return x(function(b){return r(a,c,b)},d)},l,k);case
+k=b[2],l=b[1];return dD(function(c,b){var
+d=bP(a,b);return y(function(b){return r(a,c,b)},d)},l,k);case
 8:var
-m=b[1];return dB(function(b){return[0,Q(a,b)]},m);case
+m=b[1];return dC(function(b){return[0,Q(a,b)]},m);case
 9:var
-n=b[1];return dB(function(b){return cq(a,b)},n);default:return 0}}}(ak),o),G=q(b[1],al,am);if(G){var
+n=b[1];return dC(function(b){return cr(a,b)},n);default:return 0}}}(ak),o),G=q(b[1],al,am);if(G){var
 M=I(G[1][2],e);ah=1}else
 var
 T=G}else
@@ -5406,8 +5421,8 @@ C=M}else
 af=1;if(af){var
 Z=q(n,f,0);if(Z){var
 O=F(j,n);if(O){var
-_=pM(a,m,i,A,z,b,v,u,ae,l,P,ac,O[1],E);if(_){var
-s=H,f=hE(n,f);continue}var
+_=pO(a,m,i,A,z,b,v,u,ae,l,P,ac,O[1],E);if(_){var
+s=H,f=hF(n,f);continue}var
 $=_}else
 var
 $=O;var
@@ -5417,26 +5432,26 @@ aa=Z;var
 C=aa}}}else
 var
 C=[0,f];return C?R(C[1]):C}}function
-kt(d,b){var
+kv(d,b){var
 e=_(b),f=u(u(n(c(2,a)),b),d);return C(A(_(d),f),e)}function
-ku(k,a,d,j,c,i){var
+kw(k,a,d,j,c,i){var
 e=ah(A,ec(k),j);if(i){var
 b=function(b){var
-c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=gc([0,b(function(a){return a[1]}),g,f],e);return ah(C,a$(d,c),l)}var
-m=gc(a,c);return ah(C,a$(d,e),m)}function
-pO(f,h,g,k,b,d){var
-e=ec(f),i=ah(A,e,b),j=gc(h,d),l=kt(e[3],b[3]),m=kt(e[2],b[2]),o=kt(e[1],b[1]),p=C(C(C(ac(d,d),o),m),l),q=ac(j,i),r=u(n(c(2,a)),q),s=C(u(g,p),r),t=bs(bv(j,i),k);return[0,gd(f,ku(f,h,g,b,d,0),t),s]}function
-pP(d,c,b,a){var
-e=h0(c,b,a);return ah(C,ec(d),e)}function
-pQ(g,f,e,d,c){var
-b=pP(g,f,e,c),a=ah(A,b,d);return[0,[0,b,a],aQ(ac(a,a))]}function
-h3(b,a){var
+c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=gd([0,b(function(a){return a[1]}),g,f],e);return ah(C,a$(d,c),l)}var
+m=gd(a,c);return ah(C,a$(d,e),m)}function
+pQ(f,h,g,k,b,d){var
+e=ec(f),i=ah(A,e,b),j=gd(h,d),l=kv(e[3],b[3]),m=kv(e[2],b[2]),o=kv(e[1],b[1]),p=C(C(C(ac(d,d),o),m),l),q=ac(j,i),r=u(n(c(2,a)),q),s=C(u(g,p),r),t=br(bu(j,i),k);return[0,ge(f,kw(f,h,g,b,d,0),t),s]}function
+pR(d,c,b,a){var
+e=h1(c,b,a);return ah(C,ec(d),e)}function
+pS(g,f,e,d,c){var
+b=pR(g,f,e,c),a=ah(A,b,d);return[0,[0,b,a],aR(ac(a,a))]}function
+h4(b,a){var
 c=bi(a[2],b);return g(bi(a[1],b),c)}function
-kv(d,b,a,c){if(a)var
-e=a[1],g=cx(c,h3(b,e)),i=P(c,f(h3(b,e))),j=kv(d,b,a[2],i),k=ar(g,xr),h=[0,au(d,ar(g,0),k),j];else
+kx(d,b,a,c){if(a)var
+e=a[1],g=cy(c,h4(b,e)),i=P(c,f(h4(b,e))),j=kx(d,b,a[2],i),k=ar(g,xv),h=[0,au(d,ar(g,0),k),j];else
 var
 h=a;return h}function
-kw(f,o,d,m,a){var
+ky(f,o,d,m,a){var
 g=u(_(q(0,m,n(e))),o);if(typeof
 a!=="number")switch(a[0]){case
 2:var
@@ -5449,128 +5464,128 @@ c=F(d,a[1]);if(c)var
 k=i(f,0,a[2]),l=k?[0,A(g,c[1][1][2])]:k;else
 var
 l=c;return l}return 0}function
-pR(c,b,a){if(typeof
+pT(c,b,a){if(typeof
 a!=="number"&&6===a[0]){var
-d=F(c,a[1]);return x(function(a){var
+d=F(c,a[1]);return y(function(a){var
 c=q(0,b,n(e)),d=h(a[2][2],c);return[0,a[2][1],d]},d)}return 0}function
-h4(b){return i(j,0,[3,[0,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a))))))))),a],b])}function
-pS(a){var
-b=ar(a,xs),c=aQ(ac(ar(a,xt),b));return u(q(0,a,n(e)),c)}function
-pT(b,a){var
-c=ac(a,ar(b,xu));return[0,bS(a$(pS(b),a)),c]}function
-pU(e,d,a,c,b){var
-f=b[2],g=u(pS(a),f),h=c?h0(e,d,ar(a,xv)):ar(a,xw);return A(ac(b[1][2],h),g)}function
-pV(h,g,f,e,c,b,a){var
-i=bp(c);function
-j(a){return pP(h,g,f,a)}return oy(d(function(a){return[0,a[4]]},e),j,i,b,a)}function
+h5(b){return i(j,0,[3,[0,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a))))))))),a],b])}function
+pU(a){var
+b=ar(a,xw),c=aR(ac(ar(a,xx),b));return u(q(0,a,n(e)),c)}function
+pV(b,a){var
+c=ac(a,ar(b,xy));return[0,bT(a$(pU(b),a)),c]}function
+pW(e,d,a,c,b){var
+f=b[2],g=u(pU(a),f),h=c?h1(e,d,ar(a,xz)):ar(a,xA);return A(ac(b[1][2],h),g)}function
+pX(h,g,f,e,c,b,a){var
+i=by(c);function
+j(a){return pR(h,g,f,a)}return oA(d(function(a){return[0,a[4]]},e),j,i,b,a)}function
 ef(a){var
-b=q(xx,a,n(e));return ak(q(0,a,n(e)),b)}function
-kx(a){return a[4][2]}function
-pW(f,o,m,l,b){var
-p=b[1][2],q=d(aH,f1(m,b[1][2])),h=ef(l),i=u(u(n(c(2,a)),o),h),e=b[1][1],j=aw(bY(f),e),k=d(function(a){return u(a,i)},j);return[0,g(g(ap(bY(f),e),k),q),p]}function
-pX(a){var
-b=a[3],c=a[2],d=a[1];return hP([0,[0,d,d],[0,c,c],[0,b,b]])}function
-xG(a){if(typeof
+b=q(xB,a,n(e));return aj(q(0,a,n(e)),b)}function
+kz(a){return a[4][2]}function
+pY(f,o,m,l,b){var
+p=b[1][2],q=d(aE,f2(m,b[1][2])),h=ef(l),i=u(u(n(c(2,a)),o),h),e=b[1][1],j=aw(bZ(f),e),k=d(function(a){return u(a,i)},j);return[0,g(g(ao(bZ(f),e),k),q),p]}function
+pZ(a){var
+b=a[3],c=a[2],d=a[1];return hQ([0,[0,d,d],[0,c,c],[0,b,b]])}function
+xK(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-pY(b,a){switch(b){case
+p0(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-h5(b){var
-c=ct(b[1],[0,e,a]);return c?ct(b[2],[0,e,a]):c}function
-ky(d,a){switch(d){case
-0:return h5(a[3]);case
+h6(b){var
+c=cu(b[1],[0,e,a]);return c?cu(b[2],[0,e,a]):c}function
+kA(d,a){switch(d){case
+0:return h6(a[3]);case
 1:return 1;default:var
-b=h5(a[1]),c=b?h5(a[2]):b;return c?h5(a[3]):c}}function
-kz(c,b){var
-a=y(function(a){return h3(c,a)},b),e=M(ax(0,f(a)),a);return d(ao,aP(function(a){return jZ(a[2])},e))}function
-pZ(b){var
+b=h6(a[1]),c=b?h6(a[2]):b;return c?h6(a[3]):c}}function
+kB(c,b){var
+a=x(function(a){return h4(c,a)},b),e=M(ax(0,f(a)),a);return d(ap,aN(function(a){return j1(a[2])},e))}function
+p1(b){var
 a=b[2];if(typeof
 a!=="number")switch(a[0]){case
 10:case
 12:return 1}return 0}function
-p0(c){var
-a=c;for(;;){if(0===a[0])return ag(pZ,a[1]);var
-d=ag(pZ,a[1]),b=d||p0(a[3]);if(b)return b;var
+p2(c){var
+a=c;for(;;){if(0===a[0])return ag(p1,a[1]);var
+d=ag(p1,a[1]),b=d||p2(a[3]);if(b)return b;var
 a=a[4];continue}}function
-xH(b,aT,bB,B,E,aS){var
-o=B[1],l=bM(o),$=B[6],bC=B[2],R=y(function(a){return h3(E,a)},bC),aV=B[3],V=[0,[0,aV,aV],E],ae=[0,f(R)],bD=0,aW=y(function(a){return ga(bD,E,a)},$),bE=bY(o),aX=pm(B[5],bE),p=aX[2],I=aX[1],O=bU(V,f(R)),bG=B[2],W=f(R),bF=0,z=kv(function(c,b){function
+xL(b,aT,bB,B,E,aS){var
+o=B[1],l=bM(o),$=B[6],bC=B[2],R=x(function(a){return h4(E,a)},bC),aU=B[3],V=[0,[0,aU,aU],E],ae=[0,f(R)],bD=0,aW=x(function(a){return gb(bD,E,a)},$),bE=bZ(o),aX=po(B[5],bE),p=aX[2],I=aX[1],O=bV(V,f(R)),bG=B[2],W=f(R),bF=0,z=kx(function(c,b){function
 h(e){var
-a=px(o,bM(o)),m=pz(o,I,p,c,b,a)[2],f=pz(o,I,p,c,b,a),g=f[1],h=bs(g[2],f[2]),i=bv(g[1],h),j=ah(C,i,bv(i,a)),d=a$(km(a),j),k=u(d[3],e),l=u(d[2],e);return[0,gd(o,h,[0,u(d[1],e),l,k]),m]}function
+a=pz(o,bM(o)),m=pB(o,I,p,c,b,a)[2],f=pB(o,I,p,c,b,a),g=f[1],h=br(g[2],f[2]),i=bu(g[1],h),j=ah(C,i,bu(i,a)),d=a$(ko(a),j),k=u(d[3],e),l=u(d[2],e);return[0,ge(o,h,[0,u(d[1],e),l,k]),m]}function
 i(F){var
-k=pQ(o,I,p,c,b),l=k[1],D=ah(A,ec(o),c),m=k[2],i=l[1],E=l[2],d=h0(I,p,b),h=bs(E,m),u=ak(ac(d,h),O),v=_(O),w=ak(ac(b,b),v),x=2<=o?e:a,y=C(n(x),w),z=pr(o,d,O),f=ah(A,[0,[0,[1,W]],[0,[1,[0,W]]],[0,[1,[0,[0,W]]]]],c),g=bs(f,aQ(ac(f,f)));if(o)var
-j=hZ(o,W,c,i,g[3]);else
+k=pS(o,I,p,c,b),l=k[1],D=ah(A,ec(o),c),m=k[2],i=l[1],E=l[2],d=h1(I,p,b),h=br(E,m),u=aj(ac(d,h),O),v=_(O),w=aj(ac(b,b),v),x=2<=o?e:a,y=C(n(x),w),z=pt(o,d,O),f=ah(A,[0,[0,[1,W]],[0,[1,[0,W]]],[0,[1,[0,[0,W]]]]],c),g=br(f,aR(ac(f,f)));if(o)var
+j=h0(o,W,c,i,g[3]);else
 var
 s=n(e),t=n(e),j=[0,n(e),t,s];var
-q=hZ(o,W,c,i,g[2]),r=[0,hZ(o,W,c,i,g[1]),q,j],B=kl(function(a,b){return ps(r,h,d,O,a,b)},z);return[0,gd(o,h,bs(bv(d,bs(D,m)),O)),B,y,u]}var
-j=pQ(o,I,p,c,b);function
-k(a){return ku(o,I,p,c,b,a)}var
+q=h0(o,W,c,i,g[2]),r=[0,h0(o,W,c,i,g[1]),q,j],B=kn(function(a,b){return pu(r,h,d,O,a,b)},z);return[0,ge(o,h,br(bu(d,br(D,m)),O)),B,y,u]}var
+j=pS(o,I,p,c,b);function
+k(a){return kw(o,I,p,c,b,a)}var
 d=2<=o?e:a;function
 f(a){var
 c=_(O),e=n(d),f=u(A(_(a),e),c);return u(p,A(ac(b,b),f))}var
-g=[0,ac(ku(o,I,p,c,b,1),b),f];return[0,pO(o,I,p,O,c,b),g,k,j,i,h]},E,bG,bF),Y=d(function(a){return a[1]},z),bH=P(ae,f(aW)),bI=bY(o),bJ=B[5];function
+g=[0,ac(kw(o,I,p,c,b,1),b),f];return[0,pQ(o,I,p,O,c,b),g,k,j,i,h]},E,bG,bF),Y=d(function(a){return a[1]},z),bH=P(ae,f(aW)),bI=bZ(o),bJ=B[5];function
 U(a){return[0,[0,P(bI,a)]]}var
 aK=_([0,[1,bH]]);switch(bJ[0]){case
 2:var
-bq=U(wL),br=U(wM),aL=[0,U(0),br,bq],G=[0,A(aK,ac(aL,aL))];break;case
+bq=U(wP),bs=U(wQ),aL=[0,U(0),bs,bq],G=[0,A(aK,ac(aL,aL))];break;case
 3:var
-bt=_(U(wN)),bu=_(U(0)),bw=_(U(wO)),G=[0,A(A(u(aK,C(n(a),bw)),bu),bt)];break;default:var
+bt=_(U(wR)),bv=_(U(0)),bw=_(U(wS)),G=[0,A(A(u(aK,C(n(a),bw)),bv),bt)];break;default:var
 G=0}var
 aY=B[7];if(aY)var
-bL=0,bO=B[2],ap=kv(function(k,t){var
-a=pO(o,I,p,bU(V,f(R)),k,t);switch(o){case
+bL=0,bO=B[2],ao=kx(function(k,t){var
+a=pQ(o,I,p,bV(V,f(R)),k,t);switch(o){case
 0:var
 c=a[1];if(c){var
 l=c[2],d=c[1];if(l){var
-m=l[1],s=a[2];return[0,[0,d,[0,m,[0,bv(k,[0,d,m,n(e)])[3],0]]],s]}return[0,[0,d,0],a[2]]}return[0,0,a[2]];case
+m=l[1],s=a[2];return[0,[0,d,[0,m,[0,bu(k,[0,d,m,n(e)])[3],0]]],s]}return[0,[0,d,0],a[2]]}return[0,0,a[2]];case
 1:var
 g=a[1];if(g){var
 h=g[2],b=g[1];if(h){var
 q=h[2],i=h[1];if(q){var
-r=q[1],j=bv(k,[0,b,i,r]);return[0,[0,b,[0,i,[0,r,[0,j[1],[0,j[2],[0,j[3],0]]]]]],a[2]]}return[0,[0,b,[0,i,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]];default:return[0,a[1],a[2]]}},E,bO,bL);else
+r=q[1],j=bu(k,[0,b,i,r]);return[0,[0,b,[0,i,[0,r,[0,j[1],[0,j[2],[0,j[3],0]]]]]],a[2]]}return[0,[0,b,[0,i,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]];default:return[0,a[1],a[2]]}},E,bO,bL);else
 var
-ap=aY;var
-bP=bK(ap),bQ=G?[0,G[1],0]:G,bR=g(bQ,bP),bT=0,bV=g(R,[0,V,0]),bA=d(function(a){return a[1]},z),bW=[0,p,g(dA(function(c,a){if(typeof
+ao=aY;var
+bP=bK(ao),bQ=G?[0,G[1],0]:G,bR=g(bQ,bP),bS=0,bU=g(R,[0,V,0]),bA=d(function(a){return a[1]},z),bW=[0,p,g(dB(function(c,a){if(typeof
 a!=="number")switch(a[0]){case
 6:var
-f=pR(z,c,a);if(f)var
+f=pT(z,c,a);if(f)var
 j=f[1],k=[0,j[1],[0,j[2],0]];else
 var
 k=f;return k;case
-8:return d(aH,hR(bA,c));case
+8:return d(aE,hS(bA,c));case
 13:var
 i=F(z,a[1]);if(i){var
-l=h4(a[4]);if(l){var
-m=pT(c,h(i[1][3],a[2]));return g(m[1],[0,m[2],0])}var
+l=h5(a[4]);if(l){var
+m=pV(c,h(i[1][3],a[2]));return g(m[1],[0,m[2],0])}var
 n=l}else
 var
 n=i;return n;case
-16:return y(function(a){return pW(o,O,bV,c,a)[1]},z)}var
-e=kw(b,p,z,c,a),q=e?[0,e[1],0]:e;return q},bT,E,ae,$),bR)],aq=g(bK(Y),bW),bX=0,bZ=g(R,[0,V,0]),aZ=dA(function(b,a){if(typeof
+16:return x(function(a){return pY(o,O,bU,c,a)[1]},z)}var
+e=ky(b,p,z,c,a),q=e?[0,e[1],0]:e;return q},bS,E,ae,$),bR)],aq=g(bK(Y),bW),bX=0,bY=g(R,[0,V,0]),aZ=dB(function(b,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-f=F(z,a[1]);if(f){if(h4(a[4]))return 0;var
-k=[0,pU(I,p,b,a[2],f[1][4]),0]}else
+f=F(z,a[1]);if(f){if(h5(a[4]))return 0;var
+k=[0,pW(I,p,b,a[2],f[1][4]),0]}else
 var
 k=f;return k;case
 14:var
-i=pV(o,I,p,z,b,a[1],a[2]);if(i){var
-l=i[1],m=l[2],r=l[1];return y(bS,[0,r[1],[0,r[2],[0,m[1],[0,m[2],0]]]])}return i;case
+i=pX(o,I,p,z,b,a[1],a[2]);if(i){var
+l=i[1],m=l[2],r=l[1];return x(bT,[0,r[1],[0,r[2],[0,m[1],[0,m[2],0]]]])}return i;case
 15:var
 j=F(z,a[1]);if(j){var
-c=h(j[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,q(xy,b,n(e)),s],u=[0,q(0,b,n(e)),t],v=g(cQ(c[2]),u);return g(c[1],v)}return j;case
+c=h(j[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,q(xC,b,n(e)),s],u=[0,q(0,b,n(e)),t],v=g(cQ(c[2]),u);return g(c[1],v)}return j;case
 16:var
-w=y(function(a){var
-b=d(aH,f1(bZ,kx(a)));return[0,kx(a),b]},z);return g(y(function(a){var
+w=x(function(a){var
+b=d(aE,f2(bY,kz(a)));return[0,kz(a),b]},z);return g(x(function(a){var
 c=ef(b),d=[0,h(a[6],c)[2],0],e=ef(b);return g(h(a[6],e)[1],d)},z),w)}return 0},bX,E,ae,$),a0=dm(d(function(a){return bN(l,a)},aq)),a1=dm(aZ),aa=dl(a0),a2=dl(a1),b0=cT(aa);function
 v(a){return h(b0,bN(l,a))}var
-K=cT(a2);function
+L=cT(a2);function
 a4(i){if(0===B[4][0]){var
-s=x(v,G),t=v(p),d=bY(o),g=m(f(i),l);if(g)var
-h=x(function(a){return[0,[0,a,e],e]},s),a=function(a){return q(a,aa,n(e))},c=a(t),j=ax(0,d),b=k(function(b){var
+s=y(v,G),t=v(p),d=bZ(o),g=m(f(i),l);if(g)var
+h=y(function(a){return[0,[0,a,e],e]},s),a=function(a){return q(a,aa,n(e))},c=a(t),j=ax(0,d),b=k(function(b){var
 d=ea(l,b,c),e=d?k(function(d){var
 f=d[1],e=k(function(c){var
 d=a(c);return c4(P(l,b),d)},f);if(e){var
-g=a(d[2]);return hT(c,P(l,b),g)}return e},i):d;if(e){if(h){var
+g=a(d[2]);return hU(c,P(l,b),g)}return e},i):d;if(e){if(h){var
 g=a(h[1][1][1]);return c4(P(l,b),g)}var
 f=1}else
 var
@@ -5579,42 +5594,42 @@ var
 b=g;var
 r=b?d:b;return r}return 0}var
 Z=a4(h(aC(v),Y)),a5=k(function(a){var
-b=bN(l,a),c=n(e);return a3(q(v(a),aa,c),b)},aq),a6=a5?k(function(a){return hU(l,a)},aq):a5,a7=a6?k(function(a){var
-b=n(e);return a3(q(h(K,a),a2,b),a)},aZ):a6,a8=a7?ag(xG,$):a7;if(a8)var
-b1=L(B[7]),ar=b1||pC(b,[0,o],[0,B[5]]);else
+b=bN(l,a),c=n(e);return a3(q(v(a),aa,c),b)},aq),a6=a5?k(function(a){return hV(l,a)},aq):a5,a7=a6?k(function(a){var
+b=n(e);return a3(q(h(L,a),a2,b),a)},aZ):a6,a8=a7?ag(xK,$):a7;if(a8)var
+b1=J(B[7]),ar=b1||pE(b,[0,o],[0,B[5]]);else
 var
 ar=a8;var
-a9=ar?ky(o,e2(B[4])):ar,a_=a9?i(b,1,B[3]):a9;if(a_)var
-b2=hY(B[5]),as=k(function(a){var
-c=cB(b,a[1]);return c?cB(b,a[2]):c},b2);else
+a9=ar?kA(o,e2(B[4])):ar,a_=a9?i(b,1,B[3]):a9;if(a_)var
+b2=hZ(B[5]),as=k(function(a){var
+c=cC(b,a[1]);return c?cC(b,a[2]):c},b2);else
 var
 as=a_;if(as){var
 b3=g(R,[0,V,0]),at=ad(d(function(a){return av(b,a)},b3));if(at){var
-au=ad(d(function(a){return hS(b,a)},aW));if(au){var
-b4=pY(o,e2(B[4])),aw=ad(d(function(a){return av(b,[0,a,E])},b4));if(aw){var
-ba=aw[1],b5=po(B[5]),ay=ad(d(function(a){return pq(b,a)},b5));if(ay){var
-bb=ay[1],b6=pn(B[5]),az=ad(d(cA(b),b6));if(az){var
-aA=g(R,[0,V,0]),b7=0,aD=ad(dA(function(l,g){if(typeof
+au=ad(d(function(a){return hT(b,a)},aW));if(au){var
+b4=p0(o,e2(B[4])),aw=ad(d(function(a){return av(b,[0,a,E])},b4));if(aw){var
+ba=aw[1],b5=pq(B[5]),ay=ad(d(function(a){return ps(b,a)},b5));if(ay){var
+bb=ay[1],b6=pp(B[5]),az=ad(d(cB(b),b6));if(az){var
+aA=g(R,[0,V,0]),b7=0,aD=ad(dB(function(l,g){if(typeof
 g!=="number")switch(g[0]){case
 13:var
-C=g[4],aM=F(z,g[1]);if(aM){if(pX(g[3])&&i(b,0,C)&&i(b,0,[3,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a],C])){var
-aN=g[2],aO=aM[1];if(h4(C)){var
-aG=pT(l,h(aO[3],aN)),V=aG[2];if(i(j,0,[3,C,[0,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a))))))))),a]]))var
+C=g[4],aM=F(z,g[1]);if(aM){if(pZ(g[3])&&i(b,0,C)&&i(b,0,[3,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a],C])){var
+aN=g[2],aO=aM[1];if(h5(C)){var
+aG=pV(l,h(aO[3],aN)),V=aG[2];if(i(j,0,[3,C,[0,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a))))))))),a]]))var
 aH=0;else
 var
 bf=v(V),bg=v(V),aH=[0,[6,[0,[0,d(v,aG[1]),bg],0],bf],0];var
 aP=[0,[4,v(V)],aH]}else
 var
-aP=[0,[9,[3,h(K,pU(I,p,l,aN,aO[4]))]],0];return d(function(a){return[0,a]},aP)}return xE}return xF;case
+aP=[0,[9,[3,h(L,pW(I,p,l,aN,aO[4]))]],0];return d(function(a){return[0,a]},aP)}return xI}return xJ;case
 16:var
-X=g[3],u=g[2],aQ=g[1],bh=bM(o);if(m(f(z),bh)&&i(b,0,aQ)&&i(b,1,u)&&i(b,1,X)&&cB(b,X)){var
+X=g[3],u=g[2],aQ=g[1],bh=bM(o);if(m(f(z),bh)&&i(b,0,aQ)&&i(b,1,u)&&i(b,1,X)&&cC(b,X)){var
 aI=av(b,[0,[0,u,u],E]);if(aI){var
-bi=aI[1],aJ=h(cA(b),X);if(aJ){var
+bi=aI[1],aJ=h(cB(b),X);if(aJ){var
 bj=aJ[1],aK=ad(d(function(f){var
-a=j1(b,K,aA,E,aQ,u,kx(f));if(a){var
-c=oG(b,v,aA,E,u,f[1][2]);if(c){var
-g=h2(0,0,f[1][2]);if(g)var
-i=d(ao,c[1]),e=[0,[0,a[1],i]];else
+a=j3(b,L,aA,E,aQ,u,kz(f));if(a){var
+c=oI(b,v,aA,E,u,f[1][2]);if(c){var
+g=h3(0,0,f[1][2]);if(g)var
+i=d(ap,c[1]),e=[0,[0,a[1],i]];else
 var
 e=g}else
 var
@@ -5622,11 +5637,11 @@ e=c;var
 h=e}else
 var
 h=a;return h},z));if(aK){var
-bk=aK[1],bl=d(function(a){return pW(o,O,aA,l,a)},z),aL=h(aC(v),bl),W=function(a){var
-b=bY(o),c=d(function(a){var
-b=ef(l);return h(K,h(a[6],b)[2])},z),e=d(function(a){var
-b=ef(l);return d(K,h(a[6],b)[1])},z),f=a4(aL);return[0,[8,[0,aL,v(p),f,e,c,bk,bi,bj,b,a]]]};if(2<=o)return[0,W(1),0];var
-bm=[0,W(1),0];return[0,W(0),bm]}return xA}return xB}return xC}return xD}var
+bk=aK[1],bl=d(function(a){return pY(o,O,aA,l,a)},z),aL=h(aC(v),bl),W=function(a){var
+b=bZ(o),c=d(function(a){var
+b=ef(l);return h(L,h(a[6],b)[2])},z),e=d(function(a){var
+b=ef(l);return d(L,h(a[6],b)[1])},z),f=a4(aL);return[0,[8,[0,aL,v(p),f,e,c,bk,bi,bj,b,a]]]};if(2<=o)return[0,W(1),0];var
+bm=[0,W(1),0];return[0,W(0),bm]}return xE}return xF}return xG}return xH}var
 bn=0,w=d(function(a){return a[1]},z);function
 Y(c,b,a){return[0,c,b,a,Z]}var
 G=0;if(typeof
@@ -5634,21 +5649,21 @@ g==="number")var
 aS=v(p),r=[0,Y(h(aC(v),w),aS,t)];else
 switch(g[0]){case
 0:var
-y=[5,[0,a,a],g[1]],H=Y;G=1;break;case
+x=[5,[0,a,a],g[1]],H=Y;G=1;break;case
 1:var
-aU=[5,[0,a,a],g[1]],y=aU,H=function(c,b,a){return[1,c,b,a]};G=1;break;case
+aU=[5,[0,a,a],g[1]],x=aU,H=function(c,b,a){return[1,c,b,a]};G=1;break;case
 2:var
-aV=kw(b,p,z,l,g),r=x(function(a){return[4,v(a)]},aV);break;case
+aV=ky(b,p,z,l,g),r=y(function(a){return[4,v(a)]},aV);break;case
 3:var
-aW=kw(b,p,z,l,g),r=x(function(a){return[4,v(a)]},aW);break;case
+aW=ky(b,p,z,l,g),r=y(function(a){return[4,v(a)]},aW);break;case
 5:var
-_=g[1],aX=av(b,[0,[0,_,_],e]),r=x(function(a){var
+_=g[1],aX=av(b,[0,[0,_,_],e]),r=y(function(a){var
 c=Q(b,a),d=v(p);return[2,h(aC(v),w),d,c]},aX);break;case
 6:var
-L=F(z,g[1]);if(L){var
-M=pR(z,l,g);if(M){var
+J=F(z,g[1]);if(J){var
+M=pT(z,l,g);if(M){var
 $=M[1],aa=i(b,1,g[2]),ab=aa?i(b,1,g[3]):aa;if(ab)var
-aY=v($[2]),aZ=v(L[1][1][2]),ac=[0,[5,[0,[0,[0,v($[1]),0],aZ],0],aY]];else
+aY=v($[2]),aZ=v(J[1][1][2]),ac=[0,[5,[0,[0,[0,v($[1]),0],aZ],0],aY]];else
 var
 ac=ab;var
 ae=ac}else
@@ -5656,12 +5671,12 @@ var
 ae=M;var
 af=ae}else
 var
-af=L;var
+af=J;var
 r=af;break;case
 7:var
 ag=g[3],ah=g[2],ai=g[1],aj=F(z,ai),aR=0;if(aj){var
 ak=i(b,1,ah),al=ak?i(b,1,ag):ak;if(al){var
-a0=[5,ah,ag],y=a0,H=function(c,b,a){return[3,ai,c,b,a,Z]};G=1;aR=1}else
+a0=[5,ah,ag],x=a0,H=function(c,b,a){return[3,ai,c,b,a,Z]};G=1;aR=1}else
 var
 am=al}else
 var
@@ -5672,15 +5687,15 @@ an=i(b,1,g[2]);if(an)var
 a1=g[1],a2=1,N=k(function(a){return i(b,a2,a)},a1);else
 var
 N=an;if(N)var
-a3=J(b,a),a5=v(p),a6=hR(w,l),ap=[0,[0,h(aC(v),a6),a5,a3,0]];else
+a3=K(b,a),a5=v(p),a6=hS(w,l),ao=[0,[0,h(aC(v),a6),a5,a3,0]];else
 var
-ap=N;var
-r=ap;break;case
+ao=N;var
+r=ao;break;case
 14:var
-aq=g[2],ar=g[1],P=pV(o,I,p,z,l,ar,aq);if(P){var
-as=P[1],at=as[2],au=as[1],aw=pd(ar,aq,g[3]),R=av(b,[0,[0,aw,aw],E]);if(R){var
+aq=g[2],ar=g[1],P=pX(o,I,p,z,l,ar,aq);if(P){var
+as=P[1],at=as[2],au=as[1],aw=pf(ar,aq,g[3]),R=av(b,[0,[0,aw,aw],E]);if(R){var
 ax=R[1],ay=D(e,ax[1]);if(ay)var
-A=function(a){return oE(K,a)},a7=A(at[2]),a8=A(at[1]),a9=A(au[2]),az=[0,[9,[6,A(au[1]),a9,a8,a7,ax]]];else
+A=function(a){return oG(L,a)},a7=A(at[2]),a8=A(at[1]),a9=A(au[2]),az=[0,[9,[6,A(au[1]),a9,a8,a7,ax]]];else
 var
 az=ay;var
 aB=az}else
@@ -5696,98 +5711,98 @@ aE=i(b,1,g[4]);if(aE)var
 aF=i(b,0,g[2]),T=aF?i(b,0,g[3]):aF;else
 var
 T=aE;if(T)var
-B=h(S[1][5],0),a$=h(K,B[4]),ba=[0,[0,h(K,B[3]),a$]],bb=h(K,q(xz,l,n(e))),bc=h(K,q(0,l,n(e))),a_=0,bd=B[2],be=d(function(a){return d(K,a)},bd),U=[0,[9,[11,d(K,B[1]),be,bc,bb,ba,a_]]];else
+B=h(S[1][5],0),a$=h(L,B[4]),ba=[0,[0,h(L,B[3]),a$]],bb=h(L,q(xD,l,n(e))),bc=h(L,q(0,l,n(e))),a_=0,bd=B[2],be=d(function(a){return d(L,a)},bd),U=[0,[9,[11,d(L,B[1]),be,bc,bb,ba,a_]]];else
 var
 U=T}else
 var
 U=S;var
 r=U;break;default:var
 r=0}if(G)var
-aT=av(b,[0,[0,y,y],e]),r=x(function(a){var
+aT=av(b,[0,[0,x,x],e]),r=y(function(a){var
 c=Q(b,a),d=v(p);return H(h(aC(v),w),d,c)},aT);return[0,r,bn]},b7,E,ae,$));if(aD){var
 bc=aD[1];if(B[7])var
-b8=aT[2],b9=aT[1],b_=v(p),af=j5(bB,bc,[7,h(aC(v),ap),b_,b9,b8]);else
+b8=aT[2],b9=aT[1],b_=v(p),af=j7(bB,bc,[7,h(aC(v),ao),b_,b9,b8]);else
 var
 af=bc;var
 bd=m(f(g(ba,bb)),l),be=bd?k(function(a){var
-b=pJ(a);return k(function(a){return pk(l,aa,a)},b)},af):bd,bf=be?G?pk(l,aa,v(G[1])):1:be;if(bf){var
-b$=g(au[1],az[1]),aF=g(at[1],b$),S=p0(aS),T=kz(E,B[2]),ab=S?d(function(a){var
-b=pH(l,T,a[2]),c=a[1];return[0,d(function(a){return pH(l,T,a)},c),b]},Y):S,aG=S?dm(ks(l,p,G,ab)):S,aI=dl(aG),ai=cT(aI),ca=kq(ai,ai,ab),cb=h(ai,bN(l,p)),aJ=x(function(a){return h(ai,bN(l,a))},G),bg=L(S);if(bg)var
-aj=bg;else{var
+b=pL(a);return k(function(a){return pm(l,aa,a)},b)},af):bd,bf=be?G?pm(l,aa,v(G[1])):1:be;if(bf){var
+b$=g(au[1],az[1]),aG=g(at[1],b$),S=p2(aS),T=kB(E,B[2]),ab=S?d(function(a){var
+b=pJ(l,T,a[2]),c=a[1];return[0,d(function(a){return pJ(l,T,a)},c),b]},Y):S,aH=S?dm(ku(l,p,G,ab)):S,aI=dl(aH),ai=cT(aI),ca=ks(ai,ai,ab),cb=h(ai,bN(l,p)),aJ=y(function(a){return h(ai,bN(l,a))},G),bg=J(S);if(bg)var
+ak=bg;else{var
 bp=m(f(Y),l);if(bp){var
-by=ks(l,p,G,ab),aN=k(function(a){var
-b=n(e);return a3(q(h(cT(aI),a),aI,b),a)},by);if(aN)var
-bz=ks(l,p,G,ab),al=k(function(a){var
+by=ku(l,p,G,ab),aO=k(function(a){var
+b=n(e);return a3(q(h(cT(aI),a),aI,b),a)},by);if(aO)var
+bz=ku(l,p,G,ab),al=k(function(a){var
 b=ax(0,l);return k(function(b){return e6(l,b,a)},b)},bz);else
 var
-al=aN;if(al){var
-aO=x(function(a){return bN(l,a)},G),am=bN(l,p),aM=pD(am);if(aM)var
-bx=ax(0,Z),aR=k(function(a){var
+al=aO;if(al){var
+aP=y(function(a){return bN(l,a)},G),am=bN(l,p),aM=pF(am);if(aM)var
+bx=ax(0,Z),aQ=k(function(a){var
 b=ea(l,a,am),c=b?k(function(b){var
-d=b[2][2],e=g(y(kr,b[1]),d),f=P(l,a),c=k(function(a){return c4(f,a)},e);if(c){var
-h=b[2][1];return hT(am,P(l,a),h)}return c},ab):b;if(c){if(aO){var
-e=aO[1];return c4(P(l,a),e)}var
+d=b[2][2],e=g(x(kt,b[1]),d),f=P(l,a),c=k(function(a){return c4(f,a)},e);if(c){var
+h=b[2][1];return hU(am,P(l,a),h)}return c},ab):b;if(c){if(aP){var
+e=aP[1];return c4(P(l,a),e)}var
 d=1}else
 var
 d=c;return d},bx);else
 var
-aR=aM;var
-an=aR}else
+aQ=aM;var
+an=aQ}else
 var
 an=al;var
 ch=an?k(function(a){var
-c=a[1],b=k(function(a){return pI(l,aF,T,a)},c);return b?pI(l,aF,T,a[2]):b},Y):an,aj=ch}else
+c=a[1],b=k(function(a){return pK(l,aG,T,a)},c);return b?pK(l,aG,T,a[2]):b},Y):an,ak=ch}else
 var
-aj=bp}if(aj){var
+ak=bp}if(ak){var
 cc=d(function(a){return 1},af),cd=g(ba,bb),ce=function(p,Q,ae,u,g){if(S){var
 j=function(W,i){if(typeof
 i!=="number"&&10===i[0]){var
 n=i[4],t=i[2],u=i[1];if(typeof
 u!=="number"&&6===u[0]){if(i[3])return 0;if(n){if(n[2])return 0;var
-v=n[1],g=u[1],A=jm(g1,d(ao,t),T),B=A?1:A,C=B?d3(T):B,E=C?k(function(a){return aE(a,f(p))},T):C,F=E?m(f(v),l):E;if(F){var
+v=n[1],g=u[1],A=jn(g2,d(ap,t),T),B=A?1:A,C=B?d3(T):B,E=C?k(function(a){return aF(a,f(p))},T):C,F=E?m(f(v),l):E;if(F){var
 z=0;if(typeof
 g!=="number")switch(g[0]){case
 0:var
-y=g[2],x=g[1],K=0;z=1;break;case
+y=g[2],x=g[1],L=0;z=1;break;case
 7:var
 M=g[2],o=g[1],R=0;if(typeof
 o!=="number"&&0===o[0]){var
 S=0;if(aJ){var
 O=D(e,M);if(O){var
-y=o[2],x=o[1],K=[0,[0,[0,aJ[1],M],g[3]]];z=1;R=1;S=1}else
+y=o[2],x=o[1],L=[0,[0,[0,aJ[1],M],g[3]]];z=1;R=1;S=1}else
 var
 P=O}else
 var
 P=aJ;if(!S)return P}if(!R)return 0;break}if(z){var
-U=kf(b,fS(t,0,p),aG,Q),s=kf(b,p,aG,Q),j=function(b,a){return q(a,b,xj)},V=pF(function(a){return j(s,a)},K),Y=j(s,cb),_=function(a){return j(s,a)},$=[0,kq(function(a){return j(U,a)},_,ca),Y,V],ac=nP(t,p),aa=function(s){var
-n=ad(d(xh,s[1]));if(n){var
+U=kh(b,fS(t,0,p),aH,Q),s=kh(b,p,aH,Q),j=function(b,a){return q(a,b,xn)},V=pH(function(a){return j(s,a)},L),Y=j(s,cb),_=function(a){return j(s,a)},$=[0,ks(function(a){return j(U,a)},_,ca),Y,V],ac=nR(t,p),aa=function(s){var
+n=ad(d(xl,s[1]));if(n){var
 o=s[2];if(o){var
-p=dD(s[3]);if(p){var
+p=dE(s[3]);if(p){var
 aa=p[1],S=w(r(b,ae,o[1]),aa),ab=n[1],T=d(function(d){var
-a=hr(b,0,ac,d),c=aP(xi,a[2]);return[0,a[1],c]},ab);if(W){var
-t=W[1],u=t[1],z=u[1],A=z[1],B=u[2],C=t[2],E=jS(b,v),F=E[1],G=F[1],h=G[2],g=G[1],Y=F[2],i=d(function(c){return aB(c,Y,J(b,a))},h),I=m(f(h),l),K=I?m(f(A),l):I,M=K?D(e,B):K,O=M?fG(C,c(2,c(2,c(2,c(2,c(2,c(2,a))))))):M,P=O?aE(g,l):O,Q=P?L(H(q(g,h,e),e)):P;if(Q){var
-Z=jG(b,g,i,l,N(S),0),_=jH(b,g,i,A,z[2],B,C,Z),j=jI(b,g,i,E[2],x,y,T,_);if(j)return aU(b,l,j[1]);var
+a=hs(b,0,ac,d),c=aN(xm,a[2]);return[0,a[1],c]},ab);if(W){var
+t=W[1],u=t[1],z=u[1],A=z[1],B=u[2],C=t[2],E=jU(b,v),F=E[1],G=F[1],h=G[2],g=G[1],Y=F[2],i=d(function(c){return aB(c,Y,K(b,a))},h),I=m(f(h),l),L=I?m(f(A),l):I,M=L?D(e,B):L,O=M?fG(C,c(2,c(2,c(2,c(2,c(2,c(2,a))))))):M,P=O?aF(g,l):O,Q=P?J(H(q(g,h,e),e)):P;if(Q){var
+Z=jH(b,g,i,l,N(S),0),_=jI(b,g,i,A,z[2],B,C,Z),j=jJ(b,g,i,E[2],x,y,T,_);if(j)return aV(b,l,j[1]);var
 R=j}else
 var
 R=Q;return R}var
-$=X([0,N(S),0],l),k=jE(b,d(function(a){return J(b,a)},v),x,y,T,$);return k?aU(b,l,k[1]):k}var
+$=X([0,N(S),0],l),k=jF(b,d(function(a){return K(b,a)},v),x,y,T,$);return k?aV(b,l,k[1]):k}var
 U=p}else
 var
 U=o;var
 V=U}else
 var
-V=n;return V};return h(kh(function(b,a){return xg},Z,l,aa),$)}var
+V=n;return V};return h(kj(function(b,a){return xk},Z,l,aa),$)}var
 G=0}else
 var
 G=F;var
 I=G}else
 var
-I=n;return I}return 0}return 0},n=m(u,Z),o=n?aE(0,Z):n;if(o){if(typeof
+I=n;return I}return 0}return 0},n=m(u,Z),o=n?aF(0,Z):n;if(o){if(typeof
 g!=="number"&&12===g[0]){var
-i=g[1],s=L(m(f(i),0));if(s){var
-t=M(jF(d(function(a){return a[1][1][1]},i)),i);return k(function(a){var
-b=a[2],c=b[1];return j([0,[0,[0,[0,a[1][1],a[1][2]],c[1][2]],c[2]]],b[2])},t)}return s}return j(0,g)}return o}return S},cf=v(p),cg=h(aC(v),Y);return gf(b,a0,a1,af,l,l,x(v,G),cg,cf,ce,aF,cd,cc,aS)}var
-bh=aj}else
+i=g[1],s=J(m(f(i),0));if(s){var
+t=M(jG(d(function(a){return a[1][1][1]},i)),i);return k(function(a){var
+b=a[2],c=b[1];return j([0,[0,[0,[0,a[1][1],a[1][2]],c[1][2]],c[2]]],b[2])},t)}return s}return j(0,g)}return o}return S},cf=v(p),cg=h(aC(v),Y);return gg(b,a0,a1,af,l,l,y(v,G),cg,cf,ce,aG,cd,cc,aS)}var
+bh=ak}else
 var
 bh=bf;var
 bi=bh}else
@@ -5811,125 +5826,125 @@ bn=at;var
 bo=bn}else
 var
 bo=as;return bo}function
-gg(b,a){return bI(b,a[1],a[2])}function
-p1(b,a){var
-c=gg(b,a[1]),d=c?gg(b,a[2]):c;return d?gg(b,a[3]):d}function
-p2(a){return typeof
+gh(b,a){return bI(b,a[1],a[2])}function
+p3(b,a){var
+c=gh(b,a[1]),d=c?gh(b,a[2]):c;return d?gh(b,a[3]):d}function
+p4(a){return typeof
 a==="number"?0:0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-h6(a){return typeof
-a==="number"?a?ec(0):dY:ec(a[1])}function
-kA(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:bS(a):gd(b[1],a,c)}function
-h7(b,d,c){if(0===c[0])return hG(b,d[1],c[1]);var
+h7(a){return typeof
+a==="number"?a?ec(0):dZ:ec(a[1])}function
+kC(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:bT(a):ge(b[1],a,c)}function
+h8(b,d,c){if(0===c[0])return hH(b,d[1],c[1]);var
 a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],f=g(bi(a[4],b),e),h=g(bi(a[3],b),f),i=g(bi(a[2],d[2]),h);return g(bi(a[1],d[1]),i)}function
-gh(b,a){if(b){var
-c=b[1],d=c[2];return bs(gc(c[1],a),d)}return a}function
-kB(P,o,b){function
+gi(b,a){if(b){var
+c=b[1],d=c[2];return br(gd(c[1],a),d)}return a}function
+kD(P,o,b){function
 p(a){return ah(A,P,ar(b,a))}if(0===o[0]){var
 r=o[1];switch(r[0]){case
 0:var
-am=r[1][5],s=q(xI,b,n(e)),t=ar(b,0),Q=p(xJ),f=ns(Q,dX(t),Q,s,am),U=[0,aQ(s),0],V=[0,aQ(ac(t,t)),U];return[0,f[1],f[2],f[3],[0,f[4]],[0,[0,f[2],s]],V];case
+am=r[1][5],s=q(xM,b,n(e)),t=ar(b,0),Q=p(xN),f=nu(Q,dY(t),Q,s,am),U=[0,aR(s),0],V=[0,aR(ac(t,t)),U];return[0,f[1],f[2],f[3],[0,f[4]],[0,[0,f[2],s]],V];case
 1:var
-R=r[3],v=R?[0,ar(b,xK)]:R,S=p(0),g=nt(S,S,0);if(v)var
-B=v[1],D=[0,aQ(ac(B,B)),0];else
+R=r[3],v=R?[0,ar(b,xO)]:R,S=p(0),g=nv(S,S,0);if(v)var
+B=v[1],D=[0,aR(ac(B,B)),0];else
 var
 D=v;var
 W=g[4],X=[0,[0,n(e),W]];return[0,g[1],g[2],g[3],[0,g[4]],X,D];default:var
-w=ar(b,0),h=nu(P,dX(w)),Y=[0,aQ(ac(w,w)),0];return[0,h[1],h[2],h[3],[0,h[4]],0,Y]}}var
-x=o[1][7],y=q(xL,b,n(e)),d=q(xM,b,n(e)),T=ar(b,xN),z=ar(b,0),j=p(xO),i=dX(z),k=ah(A,T,a$(ac(i,T),i)),l=dX(k),E=bv(i,l),F=ac(j,l),G=ac(j,E),Z=ac(i,j),$=_(G),H=C(_(F),$),aa=_(Z),I=A(_(y),aa),ab=u(n(c(2,a)),d),m=A(H,_(ak(C(H,A(_(d),I)),ab))),ad=hn(x,u(d,aQ(m))),J=ak(F,d),K=hn(x,ak(G,d)),L=ak(I,_(d)),M=mV(0,J,K,L),N=hn(x,mV(1,J,K,L)),ae=a$(N,E),O=ah(A,j,a$(d,ah(C,a$(M,l),ae))),af=[0,aQ(y),0],ag=[0,aQ(d),af],ai=[0,aQ(ac(k,k)),ag],aj=[0,aQ(ac(z,z)),ai],al=bs(O,ad);return[0,O,u(_(d),m),al,[1,M,N],[0,[0,m,y]],aj]}function
-kC(b,c,a){if(0===c[0])switch(c[1][0]){case
-0:return h(b,ar(a,xP));case
-1:return h(b,ar(a,xQ));default:var
-d=n(e),f=n(e);return[0,n(e),f,d]}return h(b,ar(a,xR))}function
-p3(a,c,b){return 0===c[0]?2===c[1][0]?h6(a):ah(C,h6(a),b):ah(C,h6(a),b)}function
-kD(j,c,i,h,b,g){if(b)var
-a=b[1],k=bz([0,e,e],h),n=P(g,f(h7(c,k,a))),o=b[2],p=kD(j,c,i,bp(h),o,n),l=cx(g,h7(c,k,a)),d=kC(i,a,l),m=[0,[0,kB(p3(j,a,d),a,l),d],p];else
+w=ar(b,0),h=nw(P,dY(w)),Y=[0,aR(ac(w,w)),0];return[0,h[1],h[2],h[3],[0,h[4]],0,Y]}}var
+x=o[1][7],y=q(xP,b,n(e)),d=q(xQ,b,n(e)),T=ar(b,xR),z=ar(b,0),j=p(xS),i=dY(z),k=ah(A,T,a$(ac(i,T),i)),l=dY(k),E=bu(i,l),F=ac(j,l),G=ac(j,E),Z=ac(i,j),$=_(G),H=C(_(F),$),aa=_(Z),I=A(_(y),aa),ab=u(n(c(2,a)),d),m=A(H,_(aj(C(H,A(_(d),I)),ab))),ad=ho(x,u(d,aR(m))),J=aj(F,d),K=ho(x,aj(G,d)),L=aj(I,_(d)),M=mX(0,J,K,L),N=ho(x,mX(1,J,K,L)),ae=a$(N,E),O=ah(A,j,a$(d,ah(C,a$(M,l),ae))),af=[0,aR(y),0],ag=[0,aR(d),af],ai=[0,aR(ac(k,k)),ag],ak=[0,aR(ac(z,z)),ai],al=br(O,ad);return[0,O,u(_(d),m),al,[1,M,N],[0,[0,m,y]],ak]}function
+kE(b,c,a){if(0===c[0])switch(c[1][0]){case
+0:return h(b,ar(a,xT));case
+1:return h(b,ar(a,xU));default:var
+d=n(e),f=n(e);return[0,n(e),f,d]}return h(b,ar(a,xV))}function
+p5(a,c,b){return 0===c[0]?2===c[1][0]?h7(a):ah(C,h7(a),b):ah(C,h7(a),b)}function
+kF(j,c,i,h,b,g){if(b)var
+a=b[1],k=bH([0,e,e],h),n=P(g,f(h8(c,k,a))),o=b[2],p=kF(j,c,i,by(h),o,n),l=cy(g,h8(c,k,a)),d=kE(i,a,l),m=[0,[0,kD(p5(j,a,d),a,l),d],p];else
 var
 m=b;return m}function
-kE(c,b,a){if(a){var
-d=a[2],f=kE(c,bp(b),d),h=a[1];return g(h7(c,bz([0,e,e],b),h),f)}return a}function
-p4(d,c,a,b){if(a)var
-g=a[1],h=h7(d,bz([0,e,e],c),g),j=P(b,f(h)),k=a[2],l=p4(d,bp(c),k,j),i=[0,[0,g,cx(b,h)],l];else
+kG(c,b,a){if(a){var
+d=a[2],f=kG(c,by(b),d),h=a[1];return g(h8(c,bH([0,e,e],b),h),f)}return a}function
+p6(d,c,a,b){if(a)var
+g=a[1],h=h8(d,bH([0,e,e],c),g),j=P(b,f(h)),k=a[2],l=p6(d,by(c),k,j),i=[0,[0,g,cy(b,h)],l];else
 var
 i=a;return i}function
-kF(a){if(typeof
+kH(a){if(typeof
 a==="number"){var
 c=n(e),d=n(e);return[0,n(e),d,c]}var
-b=a[1];return px(b,bM(b))}function
-p5(c,b,a){var
-e=hF(hJ(c),a),f=M(hF(hJ(c),b),e);return d(function(c){var
+b=a[1];return pz(b,bM(b))}function
+p7(c,b,a){var
+e=hG(hK(c),a),f=M(hG(hK(c),b),e);return d(function(c){var
 d=u(a,c[1]);return A(u(b,c[2]),d)},f)}function
-p6(b,e,c,a){var
-f=y(function(a){var
+p8(b,e,c,a){var
+f=x(function(a){var
 c=typeof
-a==="number"?0:0===a[0]?f1(b,a[1]):j0(b,p5(b,a[1],a[2])),e=d(aH,c);return g(p2(a),e)},a),h=g(bK(c),f);return g(cQ(e),h)}function
-p7(c,b,u,t,s,r,g,e,q,p,k,l,j,a){var
+a==="number"?0:0===a[0]?f2(b,a[1]):j2(b,p7(b,a[1],a[2])),e=d(aE,c);return g(p4(a),e)},a),h=g(bK(c),f);return g(cQ(e),h)}function
+p9(c,b,u,t,s,r,g,e,q,p,k,l,j,a){var
 n=av(c,[0,[0,a,a],e]);if(n){if(l){var
 v=l[1],w=n[1],o=ad(d(function(d){if(typeof
-d==="number")return 0;else{if(0===d[0])return j1(c,b,g,e,j,a,d[1]);var
-k=d[1],f=hS(c,[1,[5,j,a],W(e)]);if(f){var
-i=oF(c,b,g,e,a,j0(g,p5(g,k,d[2])));if(i)var
+d==="number")return 0;else{if(0===d[0])return j3(c,b,g,e,j,a,d[1]);var
+k=d[1],f=hT(c,[1,[5,j,a],W(e)]);if(f){var
+i=oH(c,b,g,e,a,j2(g,p7(g,k,d[2])));if(i)var
 n=[0,f[1],i[1]],l=[0,[0,h(b,k),n]];else
 var
 l=i;var
 m=l}else
 var
 m=f;return m}},k));if(o){var
-x=o[1];if(m(f(k),u)&&i(c,0,j)&&i(c,1,a))return d(function(a){var
-c=d(b,y(p2,k)),e=h(aC(b),p);return[0,[10,[0,d(function(a){return d(b,a)},q),e,c,x,r,w,v,t,a]]]},s);return xS}return xT}return xU}return xV}function
-p8(a){return typeof
+y=o[1];if(m(f(k),u)&&i(c,0,j)&&i(c,1,a))return d(function(a){var
+c=d(b,x(p4,k)),e=h(aC(b),p);return[0,[10,[0,d(function(a){return d(b,a)},q),e,c,y,r,w,v,t,a]]]},s);return xW}return xX}return xY}return xZ}function
+p_(a){return typeof
 a==="number"?a?0:1:a[1]}function
-p9(a){return[0,[0,[1,a]],[0,[1,[0,a]]],[0,[1,[0,[0,a]]]]]}function
-kG(d,c,a,b){return hZ(p8(d),c,a,a,b)}function
-p_(g,f,e,d){if(0===f[0])switch(f[1][0]){case
+p$(a){return[0,[0,[1,a]],[0,[1,[0,a]]],[0,[1,[0,[0,a]]]]]}function
+kI(d,c,a,b){return h0(p_(d),c,a,a,b)}function
+qa(g,f,e,d){if(0===f[0])switch(f[1][0]){case
 0:var
 b=g[6];if(b)var
-h=b[1],i=h[2],j=ak(i,aQ(h[1])),m=_(j),o=u(j,C(e,u(ak(d,i),m))),k=[0,A(n(a),o)];else
+h=b[1],i=h[2],j=aj(i,aR(h[1])),m=_(j),o=u(j,C(e,u(aj(d,i),m))),k=[0,A(n(a),o)];else
 var
 k=b;return k;case
 1:var
 c=g[6];if(c)var
-p=ak(d,c[1][2]),l=[0,A(A(n(a),e),p)];else
+p=aj(d,c[1][2]),l=[0,A(A(n(a),e),p)];else
 var
 l=c;return l;default:return 0}return 0}function
-p$(c,b){var
+qb(c,b){var
 d=typeof
-c==="number"?0:1,a=L(d);return a?0===b[0]?1:0:a}function
-qa(a){return 0===a[0]?2===a[1][0]?1:0:0}function
-qb(c,b){function
+c==="number"?0:1,a=J(d);return a?0===b[0]?1:0:a}function
+qc(a){return 0===a[0]?2===a[1][0]?1:0:0}function
+qd(c,b){function
 a(a){return q(a,b,n(e))}if(0===c[1][0]){var
-d=a(x1);return[0,a(0),d]}var
-f=a(x2),g=ak(a(x3),f),h=a(x4);return[0,ak(a(0),h),g]}function
-qc(d,c,a){var
-b=a[1];return p3(d,b,kC(c,b,a[2]))}function
-qd(a,k,j,d,c){var
-l=c[1],f=qc(a,k,c),m=kC(k,l,c[2]);function
-o(a){return kB(a,l,c[2])}function
-b(a){return[0,kk(a),0]}if(typeof
+d=a(x5);return[0,a(0),d]}var
+f=a(x6),g=aj(a(x7),f),h=a(x8);return[0,aj(a(0),h),g]}function
+qe(d,c,a){var
+b=a[1];return p5(d,b,kE(c,b,a[2]))}function
+qf(a,k,j,d,c){var
+l=c[1],f=qe(a,k,c),m=kE(k,l,c[2]);function
+o(a){return kD(a,l,c[2])}function
+b(a){return[0,km(a),0]}if(typeof
 a==="number")if(a)var
-t=[0,b(xY),0],g=[0,b(0),t];else
+t=[0,b(x2),0],g=[0,b(0),t];else
 var
-u=[0,b(xZ),0],v=[0,b(x0),u],g=[0,b(0),v];else
+u=[0,b(x3),0],v=[0,b(x4),u],g=[0,b(0),v];else
 var
-g=pr(a[1],m,j);var
-w=o(f)[3],h=o(p9(d))[3];if(p8(a))var
-i=kG(a,d,f,h[3]);else
+g=pt(a[1],m,j);var
+w=o(f)[3],h=o(p$(d))[3];if(p_(a))var
+i=kI(a,d,f,h[3]);else
 var
 r=n(e),s=n(e),i=[0,n(e),s,r];var
-p=kG(a,d,f,h[2]),q=[0,kG(a,d,f,h[1]),p,i];return kl(function(a,b){return ps(q,w,m,j,a,b)},g)}function
-qe(i,h,c,b){var
-j=b[1],k=qc(i,h,b),e=p9(c),a=kB(e,j,b[2]),f=[0,a[3][1],[0,a[3][2],[0,a[3][3],[0,a[2],0]]]],g=bS(k);return d(function(a){return kj(c,g,a)},f)}function
-qf(b,i,f,e,c,a){if(a){var
-j=a[2],k=a[1],l=qf(b,i,f,e,g(c,[0,k,0]),j),m=h(e,d(bp,g(c,j)));return au(i,au(f,bz(b,k),m),l)}return b}function
-qg(a,f,e,d,c,b){if(c){var
-g=0,h=c[1];return qf(a,e,d,function(b){return qg(a,f,e,d,h,b)},g,b)}return b?a:f}function
-qh(b,d,c){var
-e=hM(b,c);function
+p=kI(a,d,f,h[2]),q=[0,kI(a,d,f,h[1]),p,i];return kn(function(a,b){return pu(q,w,m,j,a,b)},g)}function
+qg(i,h,c,b){var
+j=b[1],k=qe(i,h,b),e=p$(c),a=kD(e,j,b[2]),f=[0,a[3][1],[0,a[3][2],[0,a[3][3],[0,a[2],0]]]],g=bT(k);return d(function(a){return kl(c,g,a)},f)}function
+qh(b,i,f,e,c,a){if(a){var
+j=a[2],k=a[1],l=qh(b,i,f,e,g(c,[0,k,0]),j),m=h(e,d(by,g(c,j)));return au(i,au(f,bH(b,k),m),l)}return b}function
+qi(a,f,e,d,c,b){if(c){var
+g=0,h=c[1];return qh(a,e,d,function(b){return qi(a,f,e,d,h,b)},g,b)}return b?a:f}function
+qj(b,d,c){var
+e=hN(b,c);function
 f(a,c){return r(b,a,c)}var
-g=J(b,a);return x(function(a){return qg(t,g,B,f,d,a)},e)}function
-kH(d,c,o,n){var
-a=qh(d,c,o);if(a){var
-f=a[1],b=qh(d,c,n);if(b){var
+g=K(b,a);return y(function(a){return qi(t,g,B,f,d,a)},e)}function
+kJ(d,c,o,n){var
+a=qj(d,c,o);if(a){var
+f=a[1],b=qj(d,c,n);if(b){var
 g=b[1],h=I(e,f[1]),i=h?I(g[2],e):h;if(i)var
 j=i;else{var
 m=I(f[2],e);if(m)return I(e,g[1]);var
@@ -5940,7 +5955,7 @@ k=b;var
 l=k}else
 var
 l=a;return l}function
-kI(b){if(b){var
+kK(b){if(b){var
 a=b[2],c=b[1];if(c){var
 d=c[2],q=c[1];if(d){var
 f=d[2],r=d[1];if(f){if(f[2])return n(e);if(a){var
@@ -5955,15 +5970,15 @@ y=m[1];if(m[2])return n(e);if(g[2])return n(e);var
 z=d5(s,t,w,x),B=u(f[1],z),D=u(r,d5(s,v,w,y));return C(A(u(q,d5(t,v,x,y)),D),B)}return n(e)}return n(e)}return n(e)}return n(e)}return n(e)}return n(e)}return n(e)}return n(e)}if(a){var
 o=a[1];if(o){var
 p=o[2];return p?p[2]?n(e):a[2]?n(e):d5(q,r,o[1],p[1]):n(e)}return n(e)}return n(e)}return n(e)}return n(e)}return n(e)}function
-qi(a){if(a){var
+qk(a){if(a){var
 b=a[1][6];if(b)var
-c=qi(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=qk(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return x5}function
-qj(g,k,a){function
+d=b;return d}return x9}function
+ql(g,k,a){function
 b(a){return q(a,k,n(e))}function
 l(a){var
-e=a[2],f=u(_(b(0)),e),c=0,d=0,g=a[1];return[0,[0,bA(function(b,a){return A(b,_(a))},g,f),d],c]}function
+e=a[2],f=u(_(b(0)),e),c=0,d=0,g=a[1];return[0,[0,bz(function(b,a){return A(b,_(a))},g,f),d],c]}function
 m(e){var
 a=e[6];if(a)var
 c=a[1],f=_(c[2]),g=u(_(b(0)),f),d=[0,[0,A(c[1],g),0],0];else
@@ -5986,7 +6001,7 @@ d=a[1];return[0,[0,A(b(0),d),0],0]}return 0},f=v,c=a[1];break;case
 w=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-c=a[2],d=a[1],f=u(b(x6),c),g=[0,[0,A(u(b(x7),d),f),0],0],h=u(d,b(x8));return[0,[0,A(u(c,b(0)),h),0],g]}return 0},f=w,c=a[1];break;case
+c=a[2],d=a[1],f=u(b(x_),c),g=[0,[0,A(u(b(x$),d),f),0],0],h=u(d,b(ya));return[0,[0,A(u(c,b(0)),h),0],g]}return 0},f=w,c=a[1];break;case
 6:var
 x=function(a){var
 b=a[4];if(typeof
@@ -6002,23 +6017,23 @@ z=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return m(a);return 0},f=z,c=a[1];break;case
 12:var
-i=qi(g);if(i)var
-B=b(0),o=bA(u,i[1],B),p=kI(d(function(a){return a[5]},g)),D=[0,bC(C(p,o)),0],r=[0,[0,A(p,o),D],0];else
+i=qk(g);if(i)var
+B=b(0),o=bz(u,i[1],B),p=kK(d(function(a){return a[5]},g)),D=[0,bB(C(p,o)),0],r=[0,[0,A(p,o),D],0];else
 var
 r=i;return r;case
 17:var
 s=a[1],f=function(e){var
-a=kI(d(function(a){return a[1]},g));function
+a=kK(d(function(a){return a[1]},g));function
 b(b){var
-c=[0,bC(C(a,b)),0];return[0,A(a,b),c]}var
-f=kI(oX(s,k,d(function(a){return a[1]},g))),c=u(aQ(e[2]),f),h=[0,b(bC(c)),0];return[0,b(c),h]},c=s;break;default:j=1}if(j)return 0;var
+c=[0,bB(C(a,b)),0];return[0,A(a,b),c]}var
+f=kK(oZ(s,k,d(function(a){return a[1]},g))),c=u(aR(e[2]),f),h=[0,b(bB(c)),0];return[0,b(c),h]},c=s;break;default:j=1}if(j)return 0;var
 h=F(g,c);return h?f(h[1]):h}function
 fa(a){return d(function(a){return[0,a[1],a[2]]},a)}function
 eg(b){return d(function(b){var
 c=n(a);return[0,b[3],c]},b)}function
-qk(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bK(hR(fa(c),b));return cQ(qj(c,b,a))}function
-ql(g,m,l,L,K,u,b){if(typeof
+qm(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bK(hS(fa(c),b));return cQ(ql(c,b,a))}function
+qn(g,m,l,L,J,u,b){if(typeof
 b==="number")return[0,[0,[0,t]],0];else
 switch(b[0]){case
 0:var
@@ -6026,102 +6041,102 @@ M=[5,[0,a,a],b[1]],n=M,o=function(a){return[0,a]};break;case
 1:var
 P=[5,[0,a,a],b[1]],n=P,o=function(a){return[1,a]};break;case
 5:var
-B=b[1],U=0,V=av(g,[0,[0,B,B],e]);return[0,x(function(a){return[2,Q(g,a)]},V),U];case
+B=b[1],U=0,V=av(g,[0,[0,B,B],e]);return[0,y(function(a){return[2,Q(g,a)]},V),U];case
 7:var
-C=b[3],D=b[2],E=b[1];if(!F(l,E))return x$;var
+C=b[3],D=b[2],E=b[1];if(!F(l,E))return yd;var
 I=0;if(i(g,1,D)&&i(g,1,C))var
 W=[5,D,C],n=W,o=function(a){return[7,E,a]};else
-I=1;if(I)return x_;break;case
+I=1;if(I)return yc;break;case
 8:var
 G=i(g,1,b[2]),X=0;if(G)var
 Y=b[1],Z=1,q=k(function(a){return i(g,Z,a)},Y);else
 var
 q=G;if(q)var
-_=J(g,a),$=hR(fa(l),u),H=[0,[4,h(aC(m),$),_]];else
+_=K(g,a),$=hS(fa(l),u),H=[0,[4,h(aC(m),$),_]];else
 var
 H=q;return[0,H,X];default:var
 r=0;if(typeof
 b==="number")r=1;else
 switch(b[0]){case
 4:var
-v=b[3],w=b[2],y=i(g,1,[3,v,w]),S=y?i(g,1,[3,[2,w,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a]],v]):y,j=S;break;case
+v=b[3],w=b[2],x=i(g,1,[3,v,w]),S=x?i(g,1,[3,[2,w,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a]],v]):x,j=S;break;case
 17:var
 A=i(g,1,b[3]);if(A)var
-T=d(function(a){return a[1]},l),j=oY(f(b[2]),T);else
+T=d(function(a){return a[1]},l),j=o0(f(b[2]),T);else
 var
 j=A;break;case
 6:case
 9:var
 z=i(g,1,b[2]),j=z?i(g,0,b[3]):z;break;default:r=1}if(r)var
 j=1;var
-p=j?qj(l,u,b):j;if(p){var
+p=j?ql(l,u,b):j;if(p){var
 R=[0,p[1],p[2]];return d(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
 e=h(m,b[1]);return[0,[5,h(m,c),e]]}var
 d=[0,[3,h(m,c)]]}else
 var
-d=a;return d},R)}return x9}var
-N=0,O=av(g,[0,[0,n,n],hQ(L,K)]);return[0,x(function(a){return o(Q(g,a))},O),N]}function
-qm(a){if(typeof
+d=a;return d},R)}return yb}var
+N=0,O=av(g,[0,[0,n,n],hR(L,J)]);return[0,y(function(a){return o(Q(g,a))},O),N]}function
+qo(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-qn(a){return 0===a[0]?2===a[1][0]?0:1:1}function
-ya(l,Z,aR,j,r,A,aQ){var
-b=j[1],_=as(b),B=j[6],s=kE(r,A,j[2]),$=j[3],v=[0,[0,$,$],r],aa=[0,f(s)],K=j[2],w=K?0===K[1][0]?0:1:K,aS=j[5],z=x(function(a){var
+qp(a){return 0===a[0]?2===a[1][0]?0:1:1}function
+ye(l,Z,aR,j,r,A,aQ){var
+b=j[1],_=as(b),B=j[6],s=kG(r,A,j[2]),$=j[3],v=[0,[0,$,$],r],aa=[0,f(s)],L=j[2],w=L?0===L[1][0]?0:1:L,aS=j[5],z=y(function(a){var
 c=typeof
-b==="number"?0:bY(b[1]);return pm(a,c)},aS),aU=j[2],aT=0,aV=bU(v,f(s)),aN=kD(b,r,function(a){return gh(z,a)},A,aU,aT),p=d(function(f){var
+b==="number"?0:bZ(b[1]);return po(a,c)},aS),aU=j[2],aT=0,aV=bV(v,f(s)),aN=kF(b,r,function(a){return gi(z,a)},A,aU,aT),p=d(function(f){var
 g=f[2],a=f[1];function
-e(a){return kA(b,a,bs(bv(g,a),aV))}var
-h=a[1],i=bv(ah(C,h6(b),g),h),j=kA(b,a[1],i),c=a[1],d=typeof
-b==="number"?1:0,k=a[6],l=a[5],m=d?b?[0,c[1],[0,c[2],0]]:bS(c):d,n=a[4],o=e(a[3]),p=a[2];return[0,e(a[1]),p,o,n,m,l,k,j]},aN);function
+e(a){return kC(b,a,br(bu(g,a),aV))}var
+h=a[1],i=bu(ah(C,h7(b),g),h),j=kC(b,a[1],i),c=a[1],d=typeof
+b==="number"?1:0,k=a[6],l=a[5],m=d?b?[0,c[1],[0,c[2],0]]:bT(c):d,n=a[4],o=e(a[3]),p=a[2];return[0,e(a[1]),p,o,n,m,l,k,j]},aN);function
 ab(a){var
-c=0,g=j[2],h=kD(b,r,function(a){if(typeof
-b==="number")return gh(z,a);var
-c=gh(z,a);return py(kF(b),c)},A,g,c),e=ef(a),k=bU(v,f(s));return d(function(d){var
+c=0,g=j[2],h=kF(b,r,function(a){if(typeof
+b==="number")return gi(z,a);var
+c=gi(z,a);return pA(kH(b),c)},A,g,c),e=ef(a),k=bV(v,f(s));return d(function(d){var
 a=d[1][3];if(typeof
-b==="number")return kA(b,a,bs(bv(d[2],a),k));var
-f=bv(d[2],a),g=ah(C,f,bv(f,kF(b))),c=a$(km(kF(b)),g),h=u(c[3],e),i=u(c[2],e),j=[0,u(c[1],e),i,h];return gd(b[1],a,j)},h)}function
+b==="number")return kC(b,a,br(bu(d[2],a),k));var
+f=bu(d[2],a),g=ah(C,f,bu(f,kH(b))),c=a$(ko(kH(b)),g),h=u(c[3],e),i=u(c[2],e),j=[0,u(c[1],e),i,h];return ge(b[1],a,j)},h)}function
 ac(l){return d(function(m){var
-o=n(a),e=m[3],p=ef(l),q=bU(v,f(s));if(typeof
+o=n(a),e=m[3],p=ef(l),q=bV(v,f(s));if(typeof
 b==="number")var
 i=e;else
 var
-h=b[1],j=aw(bY(h),e),k=d(function(b){return u(b,u(u(n(c(2,a)),q),p))},j),i=g(ap(bY(h),e),k);return[0,i,o]},p)}var
-ae=d(function(a){return a[4]},p),af=p4(r,A,j[2],0);function
+h=b[1],j=aw(bZ(h),e),k=d(function(b){return u(b,u(u(n(c(2,a)),q),p))},j),i=g(ao(bZ(h),e),k);return[0,i,o]},p)}var
+ae=d(function(a){return a[4]},p),af=p6(r,A,j[2],0);function
 aW(d,c){if(typeof
 c!=="number")switch(c[0]){case
 15:var
-q=c[1],r=f(s),y=bU(v,f(s)),t=function(a){return gh(z,a)},i=F(p,q);if(i){var
+q=c[1],r=f(s),y=bV(v,f(s)),t=function(a){return gi(z,a)},i=F(p,q);if(i){var
 j=F(af,q);if(j){var
-a=j[1],n=i[1],e=a[1],k=qb(a,d),l=k[2],m=k[1];if(p$(b,e)){var
-h=p_(n,e,m,l),u=h?[0,h[1],0]:h;return u}if(qa(e))return 0;var
-w=g([0,m,[0,l,0]],qe(b,t,r,a)),x=g(cQ(qd(b,t,y,r,a)),w);return g(n[3],x)}var
+a=j[1],n=i[1],e=a[1],k=qd(a,d),l=k[2],m=k[1];if(qb(b,e)){var
+h=qa(n,e,m,l),u=h?[0,h[1],0]:h;return u}if(qc(e))return 0;var
+w=g([0,m,[0,l,0]],qg(b,t,r,a)),x=g(cQ(qf(b,t,y,r,a)),w);return g(n[3],x)}var
 o=j}else
 var
 o=i;return o;case
 16:var
-A=ac(d);return p6(s,ab(d),A,ae)}return qk(p,d,c)}var
-ai=y(function(a){return a[7]},p),aj=j[7],ak=aj?d(function(a){return[0,a[8],a[2]]},p):aj,aX=bK(ak),aY=g(ai,g(dA(aW,w,r,aa,B),aX)),aZ=g(bK(eg(p)),aY),al=g(bK(fa(p)),aZ),am=dm(al),an=dl(am),o=cT(an);function
+A=ac(d);return p8(s,ab(d),A,ae)}return qm(p,d,c)}var
+ai=x(function(a){return a[7]},p),aj=j[7],ak=aj?d(function(a){return[0,a[8],a[2]]},p):aj,aX=bK(ak),aY=g(ai,g(dB(aW,w,r,aa,B),aX)),aZ=g(bK(eg(p)),aY),al=g(bK(fa(p)),aZ),am=dm(al),an=dl(am),o=cT(an);function
 a0(g,c){if(typeof
 c!=="number")switch(c[0]){case
 15:var
-M=c[1],Y=c[4],Z=c[3],$=c[2],N=f(s),aa=bU(v,f(s)),O=function(a){return gh(z,a)},n=F(p,M),X=0;if(n){var
+M=c[1],Y=c[4],Z=c[3],$=c[2],N=f(s),aa=bV(v,f(s)),O=function(a){return gi(z,a)},n=F(p,M),X=0;if(n){var
 q=F(af,M);if(q){var
 E=i(l,1,Y);if(E)var
 G=i(l,0,$),t=G?i(l,0,Z):G;else
 var
 t=E;if(t){var
-e=q[1],H=n[1],m=e[1],B=qb(e,g),C=B[2],D=B[1];if(p$(b,m))var
-Q=p_(H,m,D,C),u=x(function(a){return[3,h(o,a)]},Q);else
-if(qa(m))var
+e=q[1],H=n[1],m=e[1],B=qd(e,g),C=B[2],D=B[1];if(qb(b,m))var
+Q=qa(H,m,D,C),u=y(function(a){return[3,h(o,a)]},Q);else
+if(qc(m))var
 u=0;else
 var
-R=d(o,qe(b,O,N,e)),T=h(o,C),U=h(o,D),S=0,V=qd(b,O,aa,N,e),W=d(function(a){return d(o,a)},V),u=[0,[11,d(o,H[3]),W,U,T,S,R]];var
-y=u}else
+R=d(o,qg(b,O,N,e)),T=h(o,C),U=h(o,D),S=0,V=qf(b,O,aa,N,e),W=d(function(a){return d(o,a)},V),u=[0,[11,d(o,H[3]),W,U,T,S,R]];var
+x=u}else
 var
-y=t}else
+x=t}else
 var
-y=q;var
-I=y}else
+x=q;var
+I=x}else
 var
 I=n;return[0,I,X];case
 16:var
@@ -6129,18 +6144,18 @@ A=c[3],ad=j[2];if(typeof
 b==="number")var
 P=1;else
 var
-K=i(l,1,A),L=K?cB(l,A):K,P=L?k(qn,ad):L;if(P){var
+J=i(l,1,A),L=J?cC(l,A):J,P=L?k(qp,ad):L;if(P){var
 ag=c[2],ah=c[1],ai=typeof
-b==="number"?[0,J(l,a)]:h(cA(l),A),aj=ac(g),ak=ab(g),al=typeof
-b==="number"?xW:xX,am=typeof
-b==="number"?as(b):bY(b[1]);return p7(l,o,_,am,al,w,s,r,ak,aj,ae,ai,ah,ag)}return yb}return ql(l,o,p,w,r,g,c)}var
-ao=k(function(a){var
-b=n(e);return a3(q(h(o,a),an,b),a)},al),aq=ao?ag(qm,B):ao;if(aq){var
+b==="number"?[0,K(l,a)]:h(cB(l),A),aj=ac(g),ak=ab(g),al=typeof
+b==="number"?x0:x1,am=typeof
+b==="number"?as(b):bZ(b[1]);return p9(l,o,_,am,al,w,s,r,ak,aj,ae,ai,ah,ag)}return yf}return qn(l,o,p,w,r,g,c)}var
+ap=k(function(a){var
+b=n(e);return a3(q(h(o,a),an,b),a)},al),aq=ap?ag(qo,B):ap;if(aq){var
 ar=j[4];if(typeof
 b==="number")var
-at=b?ky(0,e2(ar)):1;else
+at=b?kA(0,e2(ar)):1;else
 var
-aO=e2(ar),at=ky(b[1],aO);var
+aO=e2(ar),at=kA(b[1],aO);var
 M=at}else
 var
 M=aq;if(M){var
@@ -6151,8 +6166,8 @@ if(2<=W[1])var
 D=0;else{var
 H=j[5],V=0;if(H){var
 X=i(l,1,j[3]);if(X)var
-aP=hY(H[1]),D=k(function(a){var
-b=cB(l,a[1]);return b?cB(l,a[2]):b},aP);else{var
+aP=hZ(H[1]),D=k(function(a){var
+b=cC(l,a[1]);return b?cC(l,a[2]):b},aP);else{var
 Y=X;V=1}}else{var
 Y=H;V=1}if(V)var
 D=Y}var
@@ -6160,35 +6175,35 @@ N=D}else
 var
 N=M;if(N)var
 a1=j[2],O=k(function(a){var
-b=0===a[0]?0:1;return cN(b,w)},a1);else
+b=0===a[0]?0:1;return cp(b,w)},a1);else
 var
 O=N;if(O){var
-au=L(j[7]);if(au)var
+au=J(j[7]);if(au)var
 E=au;else
 var
-aL=pC(l,b,j[5]),E=aL?k(qn,j[2]):aL}else
+aL=pE(l,b,j[5]),E=aL?k(qp,j[2]):aL}else
 var
 E=O;if(E){var
 a2=g(s,[0,v,0]),P=ad(d(function(a){return av(l,a)},a2));if(P){var
-a4=y(function(a){return ga(w,r,a)},B),Q=ad(d(function(a){return hS(l,a)},a4));if(Q){var
+a4=x(function(a){return gb(w,r,a)},B),Q=ad(d(function(a){return hT(l,a)},a4));if(Q){var
 t=e2(j[4]),a5=typeof
-b==="number"?b?[0,t[1],[0,t[2],0]]:[0,t[1],[0,t[2],[0,t[3],0]]]:pY(b[1],t),R=ad(d(function(a){return av(l,[0,a,r])},a5));if(R){var
+b==="number"?b?[0,t[1],[0,t[2],0]]:[0,t[1],[0,t[2],[0,t[3],0]]]:p0(b[1],t),R=ad(d(function(a){return av(l,[0,a,r])},a5));if(R){var
 ax=R[1],ay=j[5];if(ay)var
-a6=po(ay[1]),G=ad(d(function(a){return pq(l,a)},a6));else
+a6=pq(ay[1]),G=ad(d(function(a){return ps(l,a)},a6));else
 var
-G=yc;if(G){var
-az=G[1],I=j[5],a7=I?pn(I[1]):I,S=ad(d(cA(l),a7));if(S){var
-T=ad(dA(a0,w,r,aa,B));if(T){var
+G=yg;if(G){var
+az=G[1],I=j[5],a7=I?pp(I[1]):I,S=ad(d(cB(l),a7));if(S){var
+T=ad(dB(a0,w,r,aa,B));if(T){var
 aA=T[1];if(j[7])var
-a8=Z[2],a9=Z[1],U=j5(aR,aA,[8,h(aC(o),ak),a9,a8]);else
+a8=Z[2],a9=Z[1],U=j7(aR,aA,[8,h(aC(o),ak),a9,a8]);else
 var
 U=aA;var
 aB=m(f(g(ax,az)),_);if(aB){var
-a_=jV(U),ba=g(ax,az),aM=0,bb=j[4];if(typeof
+a_=jX(U),ba=g(ax,az),aM=0,bb=j[4];if(typeof
 b==="number"&&!b){var
-aD=function(a){return oI(l,bb,r,a)};aM=1}if(!aM)var
+aD=function(a){return oK(l,bb,r,a)};aM=1}if(!aM)var
 aD=function(a){return 0};var
-bc=g(Q[1],S[1]),bd=g(P[1],bc),be=d(o,ai),bf=eg(p),bg=h(aC(o),bf),bh=fa(p);return fm(jU(l,am,h(aC(o),bh),bg,be,bd,U,aD),ba,a_,aQ)}var
+bc=g(Q[1],S[1]),bd=g(P[1],bc),be=d(o,ai),bf=eg(p),bg=h(aC(o),bf),bh=fa(p);return fm(jW(l,am,h(aC(o),bh),bg,be,bd,U,aD),ba,a_,aQ)}var
 aE=aB}else
 var
 aE=T;var
@@ -6210,14 +6225,14 @@ aJ=P;var
 aK=aJ}else
 var
 aK=E;return aK}function
-yd(b){if(0===b[0])return[0,oT(b[1])];var
-a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bV(a[4]),g=bV(a[3]),h=bV(a[2]);return[1,[0,bV(a[1]),h,g,f,e,d,c]]}function
-qo(e,d,c){var
+yh(b){if(0===b[0])return[0,oV(b[1])];var
+a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bW(a[4]),g=bW(a[3]),h=bW(a[2]);return[1,[0,bW(a[1]),h,g,f,e,d,c]]}function
+qq(e,d,c){var
 a=d;for(;;){if(a){var
-b=a[1];if(ua(b[1],c))return b[2];var
+b=a[1];if(uc(b[1],c))return b[2];var
 a=a[2];continue}return e}}function
-kJ(a,c,b){var
-e=M(d(ao,a[2]),b);return g(M(a[1],c),e)}function
+kL(a,c,b){var
+e=M(d(ap,a[2]),b);return g(M(a[1],c),e)}function
 cf(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
@@ -6228,12 +6243,12 @@ b=a[1];return[0,[0,[0,b,b],e],0];case
 8:var
 a=a[1];continue;default:var
 d=cf(a[2]);return g(cf(a[1]),d)}}function
-bZ(d,b,c){switch(b[0]){case
+b0(d,b,c){switch(b[0]){case
 0:var
-o=b[1];return bU([0,[0,o,o],e],c);case
+o=b[1];return bV([0,[0,o,o],e],c);case
 1:var
-q=b[1];return qo(n(e),d,q);case
-2:return bC(bZ(d,b[1],c));case
+q=b[1];return qq(n(e),d,q);case
+2:return bB(b0(d,b[1],c));case
 3:var
 i=b[2],g=b[1],h=C;break;case
 4:var
@@ -6241,70 +6256,70 @@ i=b[2],g=b[1],h=A;break;case
 5:var
 i=b[2],g=b[1],h=u;break;case
 6:var
-i=b[2],g=b[1],h=ak;break;case
+i=b[2],g=b[1],h=aj;break;case
 7:var
-j=fF(b[2]),k=bZ(d,b[1],c);if(j){if(j[1]){var
-l=_(k),p=function(a){return u(a,l)},m=g0(aY(my(j)),p,l);return mx(j)?m:u(m,k)}return k}return n(a);default:return aQ(bZ(d,b[1],c))}var
-r=bZ(d,i,P(c,f(cf(g))));return h(bZ(d,g,c),r)}function
-dE(c,h,b){var
+j=fF(b[2]),k=b0(d,b[1],c);if(j){if(j[1]){var
+l=_(k),p=function(a){return u(a,l)},m=g1(aY(mA(j)),p,l);return mz(j)?m:u(m,k)}return k}return n(a);default:return aR(b0(d,b[1],c))}var
+r=b0(d,i,P(c,f(cf(g))));return h(b0(d,g,c),r)}function
+dF(c,h,b){var
 a=h;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=P(b,f(cf(e))),l=dE(c,a[2],k),m=g(dE(c,e,b),l);return[0,bZ(c,a,b),m];case
+e=a[1],k=P(b,f(cf(e))),l=dF(c,a[2],k),m=g(dF(c,e,b),l);return[0,b0(c,a,b),m];case
 8:var
-n=dE(c,a[1],b);return[0,bZ(c,a,b),n];case
+n=dF(c,a[1],b);return[0,b0(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],i=P(b,f(cf(d))),j=dE(c,a[2],i);return g(dE(c,d,b),j)}}function
-qp(i,h,g){var
+d=a[1],i=P(b,f(cf(d))),j=dF(c,a[2],i);return g(dF(c,d,b),j)}}function
+qr(i,h,g){var
 b=i,a=h,c=g;for(;;){if(a){var
-d=a[1],e=d[2],j=P(c,f(cf(e))),k=a[2],l=bZ(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
-kK(c,a,b){if(a){var
-e=a[1],d=e[2],h=P(b,f(cf(d))),i=a[2],j=bZ(c,d,b),k=kK([0,[0,e[1],j],c],i,h);return g(dE(c,d,b),k)}return a}function
-gi(a){return y(cf,a)}function
-qq(c,a,b){if(a)var
-d=a[1],g=P(b,f(cf(d))),h=qq(c,a[2],g),e=[0,bZ(c,d,b),h];else
+d=a[1],e=d[2],j=P(c,f(cf(e))),k=a[2],l=b0(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
+kM(c,a,b){if(a){var
+e=a[1],d=e[2],h=P(b,f(cf(d))),i=a[2],j=b0(c,d,b),k=kM([0,[0,e[1],j],c],i,h);return g(dF(c,d,b),k)}return a}function
+gj(a){return x(cf,a)}function
+qs(c,a,b){if(a)var
+d=a[1],g=P(b,f(cf(d))),h=qs(c,a[2],g),e=[0,b0(c,d,b),h];else
 var
 e=a;return e}function
-qr(c,a,b){if(a){var
-d=a[1],e=P(b,f(cf(d))),h=qr(c,a[2],e);return g(dE(c,d,b),h)}return a}function
-h8(a){return 0===a[0]?gi(a[1]):cf(a[1])}function
-kL(c,b,a){if(b){var
-d=b[1],j=P(a,f(h8(d))),k=kL(c,b[2],j);if(0===d[0])var
-h=qr(c,d[1],a);else
+qt(c,a,b){if(a){var
+d=a[1],e=P(b,f(cf(d))),h=qt(c,a[2],e);return g(dF(c,d,b),h)}return a}function
+h9(a){return 0===a[0]?gj(a[1]):cf(a[1])}function
+kN(c,b,a){if(b){var
+d=b[1],j=P(a,f(h9(d))),k=kN(c,b[2],j);if(0===d[0])var
+h=qt(c,d[1],a);else
 var
-e=d[1],i=dE(c,e,a),h=[0,bZ(c,e,a),i];return g(h,k)}return b}function
-h9(c){var
+e=d[1],i=dF(c,e,a),h=[0,b0(c,e,a),i];return g(h,k)}return b}function
+h_(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=b9(h9,a)}return[0,b]}function
-kM(c){var
+b=b9(h_,a)}return[0,b]}function
+kO(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=kM(a[2]);return u(kM(a[1]),d);case
+d=kO(a[2]);return u(kO(a[1]),d);case
 9:return a[1];default:return _(b)}}}function
-kN(m,h,b,g){if(b){var
-c=b[1],x=P(g,f(h8(c))),y=kN(m,h,b[2],x);if(0===c[0])var
-k=qq(h,c[1],g),o=[0,k,n(a),k,0,0,0,0,0];else
+kP(m,h,b,g){if(b){var
+c=b[1],x=P(g,f(h9(c))),y=kP(m,h,b[2],x);if(0===c[0])var
+k=qs(h,c[1],g),o=[0,k,n(a),k,0,0,0,0,0];else
 var
-l=bZ(h,c[1],g),q=h9(l),i=bh(ax(0,m),q),e=h9(i[2]),j=d(h9,i[1]),r=0,s=0,t=0,u=0,v=[0,l],w=d(function(b){return a3(b,e)?n(a):ak(b,e)},j),o=[0,j,kM(e),w,v,u,t,s,r];var
+l=b0(h,c[1],g),q=h_(l),i=bh(ax(0,m),q),e=h_(i[2]),j=d(h_,i[1]),r=0,s=0,t=0,u=0,v=[0,l],w=d(function(b){return a3(b,e)?n(a):aj(b,e)},j),o=[0,j,kO(e),w,v,u,t,s,r];var
 p=[0,o,y]}else
 var
 p=b;return p}function
-kO(a){return d(function(a){return[0,a[2],e]},a)}function
-kP(a){var
-b=y(h8,a[4]),c=g(gi(d(aH,a[3])),b);return g(kO(a[2]),c)}function
-h_(a){var
-b=cx(0,kO(a[2])),c=ax(0,f(a[1]));return kJ(a,d(function(a){return[0,[0,a]]},c),b)}function
-kQ(b,d){var
+kQ(a){return d(function(a){return[0,a[2],e]},a)}function
+kR(a){var
+b=x(h9,a[4]),c=g(gj(d(aE,a[3])),b);return g(kQ(a[2]),c)}function
+h$(a){var
+b=cy(0,kQ(a[2])),c=ax(0,f(a[1]));return kL(a,d(function(a){return[0,[0,a]]},c),b)}function
+kS(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
@@ -6313,16 +6328,16 @@ e=a[1];return ag(function(a){return aM(e,a)},b);case
 7:case
 8:var
 a=a[1];continue;default:var
-c=kQ(b,a[1]);if(c){var
+c=kS(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-qs(d){var
+qu(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=L(ag(function(b){return function(a){return ua(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=J(ag(function(b){return function(a){return uc(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-qt(a){var
-u=d(ao,a[2]),e=g(a[1],u),h=f(a[1]),o=ae(yg,h),p=o?ae(h,yh):o,q=p?ae(h,f(a[4])):p,r=q?ae(f(a[4]),yi):q,s=r?qs(e):r;if(s){var
+qv(a){var
+u=d(ap,a[2]),e=g(a[1],u),h=f(a[1]),o=ae(yk,h),p=o?ae(h,yl):o,q=p?ae(h,f(a[4])):p,r=q?ae(f(a[4]),ym):q,s=r?qu(e):r;if(s){var
 c=e,b=a[3];for(;;){if(b){var
-j=b[1],l=j[1],m=L(ag(function(b){return function(a){return aM(b,a)}}(l),c)),n=m?kQ(c,j[2]):m;if(n){var
+j=b[1],l=j[1],m=J(ag(function(b){return function(a){return aM(b,a)}}(l),c)),n=m?kS(c,j[2]):m;if(n){var
 c=[0,l,c],b=b[2];continue}var
 t=n}else
 var
@@ -6331,7 +6346,7 @@ i=t;break}}else
 var
 i=s;if(i){var
 v=a[4];return k(function(b){var
-c=0===b[0]?b[1]:[0,b[1],0],f=g(d(ao,a[3]),e);return k(function(a){return kQ(f,a)},c)},v)}return i}function
+c=0===b[0]?b[1]:[0,b[1],0],f=g(d(ap,a[3]),e);return k(function(a){return kS(f,a)},c)},v)}return i}function
 eh(f,d,g){var
 h=g[1],b=b9(function(a){return eh(f,d,a)},h);switch(b[0]){case
 0:return q(b[1],f,[0,e,a]);case
@@ -6345,7 +6360,7 @@ h=g[1],b=b9(function(a){return eh(f,d,a)},h);switch(b[0]){case
 8:var
 c=b[1];return[4,c,c];case
 9:return[6,b[1]];default:return[0,e,a]}}function
-kR(d){var
+kT(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 10:return 0;case
@@ -6356,101 +6371,101 @@ b=a[1];continue;case
 0:case
 1:case
 2:return 1;default:var
-c=kR(a[1]);if(c){var
+c=kT(a[1]);if(c){var
 b=a[2];continue}return c}}}function
 cg(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=dw(g,b[1],a[1]);if(c){var
+c=dx(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-yj(a){var
+yn(a){var
 b=a[4],d=0;if(typeof
 b!=="number"&&0===b[0]){var
 c=[0,b[1],0];d=1}if(!d)var
 c=0;var
 e=g(a[3],c);return g(a[1],e)}function
-h$(a){return f(a[1])}function
-qu(a){var
-b=f(gi(d(aH,a[3])));return P(f(a[2]),b)}function
-qv(a){var
-b=f(a[2]),c=a[3];return qp(h_(a),c,b)}function
+ia(a){return f(a[1])}function
 qw(a){var
-b=qu(a),c=a[4],d=qv(a);return kN(h$(a),d,c,b)}function
-qx(a,b){var
-c=y(h8,a[4]),e=g(gi(d(aH,a[3])),c);return g(b,d(function(a){return a[1][1]},e))}function
-qy(b,a){return k(function(a){if(0===a[0]){var
-c=h$(b);return m(f(a[1]),c)}return 1},a)}function
-kS(f,d){function
+b=f(gj(d(aE,a[3])));return P(f(a[2]),b)}function
+qx(a){var
+b=f(a[2]),c=a[3];return qr(h$(a),c,b)}function
+qy(a){var
+b=qw(a),c=a[4],d=qx(a);return kP(ia(a),d,c,b)}function
+qz(a,b){var
+c=x(h9,a[4]),e=g(gj(d(aE,a[3])),c);return g(b,d(function(a){return a[1][1]},e))}function
+qA(b,a){return k(function(a){if(0===a[0]){var
+c=ia(b);return m(f(a[1]),c)}return 1},a)}function
+kU(f,d){function
 b(b){return q(b,d,[0,e,a])}var
 c=[0,e,a];switch(f){case
 0:var
-g=b(yl);return[0,b(0),g,c];case
+g=b(yp);return[0,b(0),g,c];case
 1:var
-h=b(ym),i=b(yn);return[0,b(0),i,h];default:return[0,c,c,c]}}function
-kT(f,d){function
+h=b(yq),i=b(yr);return[0,b(0),i,h];default:return[0,c,c,c]}}function
+kV(f,d){function
 b(b){return q(b,d,[0,e,a])}var
 c=[0,e,a];switch(f){case
-0:return[0,c,c,b(yo)];case
+0:return[0,c,c,b(ys)];case
 1:var
-g=b(yp),h=b(yq);return[0,b(yr),h,g];default:var
-i=b(ys),j=b(yt);return[0,b(0),j,i]}}function
-qz(t,s,k,j,r,d){var
+g=b(yt),h=b(yu);return[0,b(yv),h,g];default:var
+i=b(yw),j=b(yx);return[0,b(0),j,i]}}function
+qB(t,s,k,j,r,d){var
 c=bl(k,j,r,d);if(0===d[0])var
 e=bL(d[1],c);else
 var
-b=d[1],f=f8(b,c),g=f9(b,c),h=f_(b,c),i=d8(b,c),l=T([3,[4,h,g],[4,i,f]],f7(b)),m=T([2,[4,h,f],[4,i,g]],e3(b)),n=O(function(b,a){return[2,b,a]},m,l),o=T(b[5],n),p=hN(b,c),q=T(hO(b,c),p),e=O(function(b,a){return[3,b,a]},q,o);return kn(t,e,T([5,[0,a,a],s],cz(ee(k,j,ed(d)),e)))}function
-qA(c,b,a){return b?f$(c,b[1],a):a?0:1}function
-qB(e,b,i,a,c,o,h,n,g){var
-p=as(b),j=m(f(c),p),k=j?qA(e,a,h):j,l=k?qA(e,a,g):k;if(l){var
-q=d(function(c){return qz(b,i,a,g,n,c)},c),r=d(function(c){return qz(b,i,a,h,o,c)},c);return kH(e,as(b),r,q)}return l}function
-qC(c,j,d,b,a){var
-e=aE(d,j),f=e?bq(b,a):e;if(f)var
-k=cW(c,a)[2],h=[0,cW(c,b)[1],k],l=[0,cW(c,dR(a,b)),0],i=[0,[0,h,h,g(X(t,d),l)]];else
+b=d[1],f=f9(b,c),g=f_(b,c),h=f$(b,c),i=d8(b,c),l=T([3,[4,h,g],[4,i,f]],f8(b)),m=T([2,[4,h,f],[4,i,g]],e3(b)),n=O(function(b,a){return[2,b,a]},m,l),o=T(b[5],n),p=hO(b,c),q=T(hP(b,c),p),e=O(function(b,a){return[3,b,a]},q,o);return kp(t,e,T([5,[0,a,a],s],cA(ee(k,j,ed(d)),e)))}function
+qC(c,b,a){return b?ga(c,b[1],a):a?0:1}function
+qD(e,b,i,a,c,o,h,n,g){var
+p=as(b),j=m(f(c),p),k=j?qC(e,a,h):j,l=k?qC(e,a,g):k;if(l){var
+q=d(function(c){return qB(b,i,a,g,n,c)},c),r=d(function(c){return qB(b,i,a,h,o,c)},c);return kJ(e,as(b),r,q)}return l}function
+qE(c,j,d,b,a){var
+e=aF(d,j),f=e?bp(b,a):e;if(f)var
+k=cW(c,a)[2],h=[0,cW(c,b)[1],k],l=[0,cW(c,dS(a,b)),0],i=[0,[0,h,h,g(X(t,d),l)]];else
 var
 i=f;return i}function
-kU(a){if(a){var
+kW(a){if(a){var
 b=a[1];if(b)var
-c=kU(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=kW(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return yw}function
-qD(c,b,a){if(b){if(a){var
-d=b[1],f=qD(c,b[2],a[2]),g=a[1],h=function(b,a){return w(r(c,d,b),a)},i=function(a){return a};return aJ(function(a){return r(c,d,a)},i,h,g,f)}var
+d=b;return d}return yA}function
+qF(c,b,a){if(b){if(a){var
+d=b[1],f=qF(c,b[2],a[2]),g=a[1],h=function(b,a){return w(r(c,d,b),a)},i=function(a){return a};return aJ(function(a){return r(c,d,a)},i,h,g,f)}var
 e=a}else
 var
 e=b;return e}function
-qE(c,b,a){if(b){if(a){var
-d=qE(c,b[2],a[2]);return w(r(c,b[1],a[1]),d)}return t}return t}function
-ia(b){return an(function(d,b){var
-e=c(2,a);return G(cp(bQ(d),e),b)},e,b)}function
-ib(b,i,h){var
+qG(c,b,a){if(b){if(a){var
+d=qG(c,b[2],a[2]);return w(r(c,b[1],a[1]),d)}return t}return t}function
+ib(b){return an(function(d,b){var
+e=c(2,a);return G(cq(bR(d),e),b)},e,b)}function
+ic(b,i,h){var
 e=f(i);function
 u(g,e,f){var
-d=[0,a,c(2,a)];return[0,R(cW(b,bb(dQ(e,f),d)))]}var
-j=kU(d(function(a){return eO(b,u,a)},i));if(j){var
-v=j[1],w=function(a,c,d){return qC(b,e,a,c,d)},l=kU(d(function(a){return eO(b,w,a)},i));if(l){var
-x=function(a){return cW(b,a)},o=d(function(a){return d(x,a)},h),y=l[1],z=d(function(a){return a[3]},y),A=d(function(a){return qE(b,a,d(function(a){return a[2]},v))},o),C=M(ax(0,e),o),F=d(function(c){var
-i=qD(b,c[2],z),j=c[1],d=[0,J(b,a),0],e=g(X(t,j),d);function
-f(b,a){return B(b,aj(a))}function
-h(a){return N(aj(a))}return aJ(function(a){return a},h,f,e,i)},C),p=m(f(h),e),q=p?k(function(a){return m(f(a),e)},h):p;if(q)var
-G=c(2,a),H=cp(cR(b),G),I=ia(A),n=D(E(c(2,c(2,a)),I),H);else
+d=[0,a,c(2,a)];return[0,R(cW(b,bb(dR(e,f),d)))]}var
+j=kW(d(function(a){return eO(b,u,a)},i));if(j){var
+v=j[1],w=function(a,c,d){return qE(b,e,a,c,d)},l=kW(d(function(a){return eO(b,w,a)},i));if(l){var
+x=function(a){return cW(b,a)},o=d(function(a){return d(x,a)},h),y=l[1],z=d(function(a){return a[3]},y),A=d(function(a){return qG(b,a,d(function(a){return a[2]},v))},o),C=M(ax(0,e),o),F=d(function(c){var
+i=qF(b,c[2],z),j=c[1],d=[0,K(b,a),0],e=g(X(t,j),d);function
+f(b,a){return B(b,ak(a))}function
+h(a){return N(ak(a))}return aJ(function(a){return a},h,f,e,i)},C),p=m(f(h),e),q=p?k(function(a){return m(f(a),e)},h):p;if(q)var
+G=c(2,a),H=cq(cR(b),G),I=ib(A),n=D(E(c(2,c(2,a)),I),H);else
 var
 n=q;if(n){var
-K=c(2,a),L=cp(cR(b),K),O=ia(cQ(F));return D(E(c(2,c(2,a)),O),L)}var
+J=c(2,a),L=cq(cR(b),J),O=ib(cQ(F));return D(E(c(2,c(2,a)),O),L)}var
 r=n}else
 var
 r=l;var
 s=r}else
 var
 s=j;return s}function
-fb(a){return k(function(a){return L(dV(a))},a)}function
+fb(a){return k(function(a){return J(dW(a))},a)}function
 a5(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 bc(a){return[0,a[1],a[2]]}function
-ic(b,a){var
+id(b,a){var
 d=f(a),c=m(f(b),d);if(c){var
-e=M(b,a);return k(function(a){return bq(a[1],a[2])},e)}return c}function
-kV(c,a,b){var
+e=M(b,a);return k(function(a){return bp(a[1],a[2])},e)}return c}function
+kX(c,a,b){var
 e=M(a,b),g=M(ax(c,f(a)),e);return d(function(a){return[1,a[1],a[2][1],a[2][2]]},g)}function
 fc(e,k,j,h){var
 c=k,b=j,a=h;for(;;){if(c)if(b)if(a){var
@@ -6463,25 +6478,25 @@ var
 d=b;else
 var
 d=c;return d}}function
-kW(b,d,c){var
-a=eO(b,function(a,c,e){return qC(b,d,a,c,e)},c);return a?I(e,a[1][2][1]):a}function
-kX(f,e,b,a){var
+kY(b,d,c){var
+a=eO(b,function(a,c,e){return qE(b,d,a,c,e)},c);return a?I(e,a[1][2][1]):a}function
+kZ(f,e,b,a){var
 c=a[1],d=b[1],g=c[2],h=a[2],i=d[2],j=b[2],l=[0,d[1],[0,c[1],0]];return k(function(a){var
 b=[0,i,[0,g,0]];return k(function(b){var
 c=[0,j,[0,h,0]];return k(function(c){var
 d=bc(c),g=bc(b);return c2(f,e,[0,bc(a),g,d])},c)},b)},l)}function
-kY(a){switch(a[0]){case
+k0(a){switch(a[0]){case
 0:var
 c=[0,a[4],0],d=g(a5(a[3]),c),e=g(a5(a[2]),d);return g(a5(a[1]),e);case
 1:var
 b=a[3],f=b?a5(b[1]):b,h=g(a5(a[2]),f);return g(a5(a[1]),h);default:return a5(a[1])}}function
-qF(a){return 1===a[0]?0:1}function
-gj(b,a){var
-c=bb(a,a);return bq(bb(b,b),c)?a:b}function
-gk(b,a,e,d){var
+qH(a){return 1===a[0]?0:1}function
+gk(b,a){var
+c=bb(a,a);return bp(bb(b,b),c)?a:b}function
+gl(b,a,e,d){var
 c=d$(b,a,bc(e));return c?d$(b,a,bc(d)):c}function
-qG(f,d,c,b){switch(d[0]){case
-0:if(c){if(c[2])return 0;if(b)return b[2]?0:gk(f,d[1],c[1],b[1]);var
+qI(f,d,c,b){switch(d[0]){case
+0:if(c){if(c[2])return 0;if(b)return b[2]?0:gl(f,d[1],c[1],b[1]);var
 x=b}else
 var
 x=c;return x;case
@@ -6490,7 +6505,7 @@ i=c[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;if(b){var
 k=b[2];if(k){var
 l=k[2];if(l){if(l[2])return 0;var
-y=gk(f,d[1],c[1],b[1]),z=y?gk(f,d[2],i[1],k[1]):y;if(z)return gk(f,d[3],j[1],l[1]);var
+y=gl(f,d[1],c[1],b[1]),z=y?gl(f,d[2],i[1],k[1]):y;if(z)return gl(f,d[3],j[1],l[1]);var
 A=z}else
 var
 A=l;var
@@ -6513,7 +6528,7 @@ m=c[2];if(m){var
 n=m[2];if(n){if(n[2])return 0;if(b){var
 o=b[2];if(o){var
 p=o[2];if(p){if(p[2])return 0;var
-P=[0,bc(gj(n[1],p[1])),0],Q=[0,bc(gj(m[1],o[1])),P];return f$(f,d,[0,bc(gj(c[1],b[1])),Q])}var
+P=[0,bc(gk(n[1],p[1])),0],Q=[0,bc(gk(m[1],o[1])),P];return ga(f,d,[0,bc(gk(c[1],b[1])),Q])}var
 E=p}else
 var
 E=o;var
@@ -6532,11 +6547,11 @@ q=c[2];if(q){var
 r=q[2];if(r){if(r[2])return 0;if(b){var
 s=b[2];if(s){var
 t=s[2];if(t){if(t[2])return 0;var
-g=t[1],h=r[1],N=0,R=0;if(bq(h,[0,e,a])&&bq([0,e,a],g))var
+g=t[1],h=r[1],N=0,R=0;if(bp(h,[0,e,a])&&bp([0,e,a],g))var
 H=[0,e,a];else
 N=1;if(N)var
-O=bb(g,g),H=bq(bb(h,h),O)?h:g;var
-S=[0,bc(H),R],T=[0,bc(gj(q[1],s[1])),S],I=f$(f,d,[0,bc(gj(c[1],b[1])),T]);if(I)return gk(f,dz(d[2]),h,g);var
+O=bb(g,g),H=bp(bb(h,h),O)?h:g;var
+S=[0,bc(H),R],T=[0,bc(gk(q[1],s[1])),S],I=ga(f,d,[0,bc(gk(c[1],b[1])),T]);if(I)return gl(f,dA(d[2]),h,g);var
 J=I}else
 var
 J=t;var
@@ -6554,78 +6569,78 @@ L=q;var
 M=L}else
 var
 M=c;return M}}function
-qH(b){var
-c=q(yA,b,[0,e,a]),d=q(yB,b,[0,e,a]);return[0,q(0,b,[0,e,a]),d,c]}function
-id(b){var
-c=q(yC,b,[0,e,a]),d=q(yD,b,[0,e,a]);return[0,[0,q(0,b,[0,e,a]),d],c]}function
-kZ(d,c,b,a){var
+qJ(b){var
+c=q(yE,b,[0,e,a]),d=q(yF,b,[0,e,a]);return[0,q(0,b,[0,e,a]),d,c]}function
+ie(b){var
+c=q(yG,b,[0,e,a]),d=q(yH,b,[0,e,a]);return[0,[0,q(0,b,[0,e,a]),d],c]}function
+k1(d,c,b,a){var
 e=cd(d,c,b,a);return v(cd(d,c,b,a),e)}var
 c5=c(2,c(2,c(2,c(2,c(2,s(c(2,a)))))));function
 ei(d){var
-b=aF(c5,d);if(b){var
-f=h(g3(c(2,a)),c5);return[0,b[1][2],f]}return[0,e,a]}var
-k0=[0,[0,e,a],[0,e,a],[0,e,a]];function
+b=aG(c5,d);if(b){var
+f=h(g4(c(2,a)),c5);return[0,b[1][2],f]}return[0,e,a]}var
+k2=[0,[0,e,a],[0,e,a],[0,e,a]];function
 fd(c,b){var
 d=[0,e,a];return an(function(b,a){return[2,h(c,b),a]},d,b)}function
-gl(b,a){return an(function(c,a){var
-d=h(b,c);return O(function(b,a){return[2,b,a]},d,a)},k0,a)}function
-qI(c){var
+gm(b,a){return an(function(c,a){var
+d=h(b,c);return O(function(b,a){return[2,b,a]},d,a)},k2,a)}function
+qK(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return aE(a[1],dW);case
+1:return aF(a[1],dX);case
 6:var
 a=a[1];continue;default:var
-b=qI(a[1]);if(b){var
+b=qK(a[1]);if(b){var
 a=a[2];continue}return b}}function
-dF(a){return k(qI,a)}function
-k1(d,h,c,f){var
+dG(a){return k(qK,a)}function
+k3(d,h,c,f){var
 a=eO(d,function(c,e,f){var
-a=aE(c,P(dW,h)),b=a?bq(e,f):a,g=b?[0,m7(d,c,e,f)]:b;return g},f);if(a){var
-b=a[1],e=aw(dW,b[3]),g=jn(ia(aw(c,e))),i=jn(ia(ap(c,e))),j=W(G(G(hf(ap(dW,b[3])),i),g));return I(b[1][2],j)}return a}function
-ie(b,a,c){if(b)if(a)var
-f=a[1],g=ie(b[2],a[2],c),h=I(b[1],e)?[3,f,c]:[2,f,c],d=[0,h,g];else
+a=aF(c,P(dX,h)),b=a?bp(e,f):a,g=b?[0,m9(d,c,e,f)]:b;return g},f);if(a){var
+b=a[1],e=aw(dX,b[3]),g=jo(ib(aw(c,e))),i=jo(ib(ao(c,e))),j=W(G(G(hg(ao(dX,b[3])),i),g));return I(b[1][2],j)}return a}function
+ig(b,a,c){if(b)if(a)var
+f=a[1],g=ig(b[2],a[2],c),h=I(b[1],e)?[3,f,c]:[2,f,c],d=[0,h,g];else
 var
 d=a;else
 var
 d=b;return d}function
-ig(b){return x(function(b){var
-d=h(g3(c(2,a)),c5);return[0,b[2],d]},b)}function
-cD(b,a){var
-c=g$(a);return[1,P(dW,b),c,a]}function
-ej(b){if(ct(b[1],b[2]))return b[1];var
+ih(b){return y(function(b){var
+d=h(g4(c(2,a)),c5);return[0,b[2],d]},b)}function
+cE(b,a){var
+c=ha(a);return[1,P(dX,b),c,a]}function
+ej(b){if(cu(b[1],b[2]))return b[1];var
 d=[0,c(2,a),a];return[5,[2,b[1],b[2]],d]}function
 bO(a){var
 b=ej(a[3]),c=ej(a[2]);return[0,ej(a[1]),c,b]}function
-qJ(a){switch(a[0]){case
+qL(a){switch(a[0]){case
 0:var
 b=a[1],c=b[5],d=ej(b[4]),e=bO(b[3]),f=bO(b[2]);return[0,bO(b[1]),f,e,d,c];case
 1:var
-g=x(bO,a[3]),h=bO(a[2]);return[1,bO(a[1]),h,g];default:return[2,bO(a[1])]}}function
-gm(h,g,p,b,Q,o){var
-x=f2(h,g,p,b),y=x?dF(a5(b)):x;if(y){var
+g=y(bO,a[3]),h=bO(a[2]);return[1,bO(a[1]),h,g];default:return[2,bO(a[1])]}}function
+gn(h,g,p,b,Q,o){var
+x=f3(h,g,p,b),y=x?dG(a5(b)):x;if(y){var
 q=F(g[3],Q);if(q){var
 j=q[1];if(typeof
 j!=="number"&&14===j[0]){var
-B=j[2],C=j[1],r=ig(aF(c5,B));if(r){var
-s=r[1],R=cD(yK,s),S=cD(yL,s),t=[0,cD(0,s),S,R],D=i(h,1,B),E=D?i(h,0,C):D;if(E)var
+B=j[2],C=j[1],r=ih(aG(c5,B));if(r){var
+s=r[1],R=cE(yO,s),S=cE(yP,s),t=[0,cE(0,s),S,R],D=i(h,1,B),E=D?i(h,0,C):D;if(E)var
 U=f(g[1]),u=m(f(o),U);else
 var
 u=E;var
-G=u?k(function(a){return dF(kY(a))},p):u;if(G){var
-V=g[1],H=ie(o,d(function(a){return c3(qJ(a),b)},V),C),I=dF(H);if(I){var
+G=u?k(function(a){return dG(k0(a))},p):u;if(G){var
+V=g[1],H=ig(o,d(function(a){return c3(qL(a),b)},V),C),I=dG(H);if(I){var
 w=M(M(p,H),o),l=function(k){var
 f=k[1][2],d=k[1][1];switch(d[0]){case
 0:var
-i=d[4],l=T(f,aG(d[1])),m=aW(d[2],d[3],b),g=O(function(b,a){return[3,b,a]},m,l),n=T([0,c(2,a),a],g);return[0,[3,v(g,g),[4,i,i]],n,[0,a,a]];case
+i=d[4],l=T(f,aH(d[1])),m=aW(d[2],d[3],b),g=O(function(b,a){return[3,b,a]},m,l),n=T([0,c(2,a),a],g);return[0,[3,v(g,g),[4,i,i]],n,[0,a,a]];case
 1:var
 h=aW(d[1],d[2],b),o=T([0,c(2,a),a],h);return[0,[3,v(h,h),[4,f,f]],o,[0,a,a]];default:var
-j=d[1],p=aG(j);return[0,[3,v(aG(j),b),f],p,[0,e,a]]}},n=function(j){var
+j=d[1],p=aH(j);return[0,[3,v(aH(j),b),f],p,[0,e,a]]}},n=function(j){var
 e=j[1],f=e[2],c=e[1],d=j[2];switch(c[0]){case
 0:var
-g=c[3],h=c[2],i=c[1],k=aW(h,g,b),l=[3,v(aG(i),k),f],m=cb(i,h,g,c[4],b);return ei([5,[0,d,a],[2,cy(c[5],m),l]]);case
+g=c[3],h=c[2],i=c[1],k=aW(h,g,b),l=[3,v(aH(i),k),f],m=cb(i,h,g,c[4],b);return ei([5,[0,d,a],[2,cz(c[5],m),l]]);case
 1:return ei([5,[0,d,a],[2,f,c3(c,b)]]);default:return[0,d,a]}},L=v(t,t),N=[4,fd(function(a){var
-b=l(a)[3];return[4,n(a),b]},w),L],P=v(gl(function(a){var
-b=l(a)[2];return T(n(a),b)},w),t);return k1(h,yN,yM,[2,[2,fd(function(a){var
+b=l(a)[3];return[4,n(a),b]},w),L],P=v(gm(function(a){var
+b=l(a)[2];return T(n(a),b)},w),t);return k3(h,yR,yQ,[2,[2,fd(function(a){var
 b=l(a)[1];return[4,n(a),b]},w),P],N])}var
 J=I}else
 var
@@ -6639,54 +6654,54 @@ z=q;var
 A=z}else
 var
 A=y;return A}function
-yO(a){var
-b=dF(a5(a[3])),c=b?dF(a5(a[4])):b;return c?dF([0,a[2],0]):c}function
-qK(a,e,c){var
+yS(a){var
+b=dG(a5(a[3])),c=b?dG(a5(a[4])):b;return c?dG([0,a[2],0]):c}function
+qM(a,e,c){var
 b=ax(0,bM(a));return d(function(b){var
-d=aE(b,bY(a))?e:c;return cD(b,d)},b)}function
-qL(d,b,f){if(typeof
+d=aF(b,bZ(a))?e:c;return cE(b,d)},b)}function
+qN(d,b,f){if(typeof
 d==="number"){if(d){var
-g=cD(yP,b);return[0,[0,cD(0,b),g,[0,e,a]],k0]}var
-h=cD(yQ,b),i=cD(yR,b);return[0,[0,cD(0,b),i,h],k0]}var
-c=d[1],j=kT(c,qK(c,b,f));return[0,kS(c,qK(c,b,f)),j]}function
-qM(g,d,u,o,b){var
-p=ig(aF(c5,u));if(p){var
+g=cE(yT,b);return[0,[0,cE(0,b),g,[0,e,a]],k2]}var
+h=cE(yU,b),i=cE(yV,b);return[0,[0,cE(0,b),i,h],k2]}var
+c=d[1],j=kV(c,qM(c,b,f));return[0,kU(c,qM(c,b,f)),j]}function
+qO(g,d,u,o,b){var
+p=ih(aG(c5,u));if(p){var
 w=p[1],q=typeof
-d==="number"?[0,[0,a,a]]:ig(h(cA(c5),o));if(q){var
+d==="number"?[0,[0,a,a]]:ih(h(cB(c5),o));if(q){var
 r=q[1],x=i(g,1,u);if(x)if(typeof
 d==="number")var
 j=1;else
 var
-B=i(g,1,o),C=B?cB(g,o):B,j=C?L(bq(r,[0,e,a])):C;else
+B=i(g,1,o),C=B?cC(g,o):B,j=C?J(bp(r,[0,e,a])):C;else
 var
 j=x;var
-y=j?k(yO,b):j;if(y){var
-f=qL(d,w,r)[2],l=qL(d,w,r)[1],m=[0,c(2,a),a],n=function(c){return gl(function(a){var
+y=j?k(yS,b):j;if(y){var
+f=qN(d,w,r)[2],l=qN(d,w,r)[1],m=[0,c(2,a),a],n=function(c){return gm(function(a){var
 b=a[3],d=h(c,a[4]);return T([4,a[1],d],b)},b)},s=fd(function(a){var
-b=v(a[3],a[4]);return[4,a[1],b]},b),t=v(f,f),D=n(function(a){return a[3]}),E=T(f[3],D),F=n(function(a){return a[2]}),G=T(f[2],F),H=n(function(a){return a[1]}),I=T(f[1],H),J=O(function(b,a){return[2,b,a]},I,G),K=[4,t,s],M=v(f,O(function(b,a){return[2,b,a]},J,E)),N=[3,[2,v(f,gl(function(a){var
-b=cz(a[4],a[3]);return T(a[1],b)},b)),M],K],P=[2,[4,m,s],[4,[5,[0,c(2,c(2,a)),a],[2,[0,a,a],t]],N]],Q=[4,m,v(l,o9(f,gl(function(a){return T(a[1],a[4])},b)))],R=v(l,l),S=[2,[4,fd(function(a){return a[1]},b),R],Q],U=[4,m,v(gl(function(a){return T(a[1],a[3])},b),l)],V=[2,[2,[2,fd(function(a){var
+b=v(a[3],a[4]);return[4,a[1],b]},b),t=v(f,f),D=n(function(a){return a[3]}),E=T(f[3],D),F=n(function(a){return a[2]}),G=T(f[2],F),H=n(function(a){return a[1]}),I=T(f[1],H),K=O(function(b,a){return[2,b,a]},I,G),L=[4,t,s],M=v(f,O(function(b,a){return[2,b,a]},K,E)),N=[3,[2,v(f,gm(function(a){var
+b=cA(a[4],a[3]);return T(a[1],b)},b)),M],L],P=[2,[4,m,s],[4,[5,[0,c(2,c(2,a)),a],[2,[0,a,a],t]],N]],Q=[4,m,v(l,o$(f,gm(function(a){return T(a[1],a[4])},b)))],R=v(l,l),S=[2,[4,fd(function(a){return a[1]},b),R],Q],U=[4,m,v(gm(function(a){return T(a[1],a[3])},b),l)],V=[2,[2,[2,fd(function(a){var
 b=[4,a[2],a[2]],c=v(a[4],a[4]),d=[3,[2,v(a[3],a[3]),c],b];return[4,a[1],d]},b),U],S],P],W=typeof
-d==="number"?as(d):bY(d[1]);return k1(g,as(d),W,V)}var
+d==="number"?as(d):bZ(d[1]);return k3(g,as(d),W,V)}var
 z=y}else
 var
 z=q;var
 A=z}else
 var
 A=p;return A}function
-qN(a){return[6,v(a,a)]}function
-qO(b){if(0===b[0])return[0,qJ(b[1])];var
+qP(a){return[6,v(a,a)]}function
+qQ(b){if(0===b[0])return[0,qL(b[1])];var
 a=b[1],c=a[7],d=ej(a[6]),e=ej(a[5]),f=bO(a[4]),g=bO(a[3]),h=bO(a[2]);return[1,[0,bO(a[1]),h,g,f,e,d,c]]}function
-ih(f,d,c,a){if(typeof
+ii(f,d,c,a){if(typeof
 a==="number")return 0;else{if(0===a[0]){var
 g=a[1],j=I(c,e)?[3,g,f]:[2,g,f];return[0,j]}var
-h=a[2],i=a[1],k=I(c,e)?g$(d):d,b=bc(k),l=[4,i,d_(b)],m=[2,[4,h,d9(b)],l],n=[4,h,d_(b)];return[1,[3,[4,i,d9(b)],n],m]}}function
-k2(b,c){if(D(c,a))return b;var
-g=a2(c,aS(2)),h=g[1];if(H(g[2],e)){var
-d=k2(b,h);return[4,d,d]}var
-f=k2(b,h);return[4,[4,f,f],b]}function
+h=a[2],i=a[1],k=I(c,e)?ha(d):d,b=bc(k),l=[4,i,d_(b)],m=[2,[4,h,d9(b)],l],n=[4,h,d_(b)];return[1,[3,[4,i,d9(b)],n],m]}}function
+k4(b,c){if(D(c,a))return b;var
+g=a2(c,aT(2)),h=g[1];if(H(g[2],e)){var
+d=k4(b,h);return[4,d,d]}var
+f=k4(b,h);return[4,[4,f,f],b]}function
 a6(c,b){switch(b[0]){case
 0:return b[1];case
-1:return qo([0,e,a],c,b[1]);case
+1:return qq([0,e,a],c,b[1]);case
 2:return[3,[0,e,a],a6(c,b[1])];case
 3:var
 d=a6(c,b[2]);return[2,a6(c,b[1]),d];case
@@ -6697,23 +6712,23 @@ g=a6(c,b[2]);return[4,a6(c,b[1]),g];case
 6:var
 h=a6(c,b[2]);return[5,a6(c,b[1]),h];case
 7:var
-i=b[2];return k2(a6(c,b[1]),i);default:return[6,a6(c,b[1])]}}function
-gn(d,h,g){var
-i=d[3],b=kJ(d,g,h),a=i;for(;;){if(a){var
+i=b[2];return k4(a6(c,b[1]),i);default:return[6,a6(c,b[1])]}}function
+go(d,h,g){var
+i=d[3],b=kL(d,g,h),a=i;for(;;){if(a){var
 c=a[1],e=a[2],f=a6(b,c[2]),b=[0,[0,c[1],f],b],a=e;continue}return b}}function
-go(c){var
+gp(c){var
 a=c;for(;;)switch(a[0]){case
-0:return L(dV(a[1]));case
+0:return J(dW(a[1]));case
 1:return 1;case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-b=go(a[1]);if(b){var
+b=gp(a[1]);if(b){var
 a=a[2];continue}return b}}function
-k3(a){if(a){var
+k5(a){if(a){var
 b=a[1];if(0===b[0])return 0;var
-c=b[1],d=k3(a[2]);return x(function(a){return[0,c,a]},d)}return yU}function
+c=b[1],d=k5(a[2]);return y(function(a){return[0,c,a]},d)}return yY}function
 fe(c,d,p){var
 b=p;for(;;)switch(b[0]){case
 6:var
@@ -6731,31 +6746,31 @@ b=b[1];continue;case
 1:return 1;default:var
 f=fe(c,d,b[1]);if(f){var
 b=b[2];continue}return f}}function
-qP(j,c,i,h,n){var
-o=c[3],b=kJ(c,h,i),a=o;for(;;){if(a){var
+qR(j,c,i,h,n){var
+o=c[3],b=kL(c,h,i),a=o;for(;;){if(a){var
 e=a[1],f=e[2],g=fe(j,b,f);if(g){var
 l=a[2],m=a6(b,f),b=[0,[0,e[1],m],b],a=l;continue}var
 d=g}else
 var
 d=1;if(d){var
-p=gn(c,i,h);return k(function(a){return fe(j,p,a)},n)}return d}}var
-ij=A(n(a),ii);function
-qQ(e){var
-b=_(ij);if(e)var
-f=u(n(c(2,a)),b),g=C(n(c(2,c(2,a))),f),h=u(n(c(2,a)),b),d=ak(C(n(a),h),g);else
+p=go(c,i,h);return k(function(a){return fe(j,p,a)},n)}return d}}var
+ik=A(n(a),ij);function
+qS(e){var
+b=_(ik);if(e)var
+f=u(n(c(2,a)),b),g=C(n(c(2,c(2,a))),f),h=u(n(c(2,a)),b),d=aj(C(n(a),h),g);else
 var
-i=C(n(c(2,a)),b),j=_(ii),d=ak(C(u(n(c(2,a)),j),b),i);return aQ(d)}function
-qR(d,c,b){if(d){var
-e=qQ(c),f=C(n(a),e),g=u(A(n(a),b),f);return A(n(a),g)}var
-h=n(a),i=qQ(c),j=ak(n(a),i);return A(u(b,C(n(a),j)),h)}function
+i=C(n(c(2,a)),b),j=_(ij),d=aj(C(u(n(c(2,a)),j),b),i);return aR(d)}function
+qT(d,c,b){if(d){var
+e=qS(c),f=C(n(a),e),g=u(A(n(a),b),f);return A(n(a),g)}var
+h=n(a),i=qS(c),j=aj(n(a),i);return A(u(b,C(n(a),j)),h)}function
 ff(f,e,d,b){var
-g=_(b),h=_(d),i=A(A(n(c(2,a)),h),g),j=f?e?ij:ak(ij,u(n(c(2,a)),ii)):ak(ij,n(c(2,a))),k=u(_(j),i);return aQ(C(n(a),k))}function
-qS(b,d){var
-h=b?a:W(a),e=n(h),f=qR(b,d,yZ),g=qR(b,d,y0),i=ak(f,ff(b,d,e,f)),j=[0,C(ak(g,ff(b,d,g,e)),i),0],k=ak(e,ff(b,d,e,f)),l=[0,C(ak(g,ff(b,d,f,g)),k),j],m=ak(e,ff(b,d,g,e)),o=[0,C(ak(f,ff(b,d,f,g)),m),l],p=b?d?n(c(2,a)):u(n(c(2,c(2,a))),ii):n(c(2,c(2,a)));return[0,p,o]}function
-qT(g,d){var
+g=_(b),h=_(d),i=A(A(n(c(2,a)),h),g),j=f?e?ik:aj(ik,u(n(c(2,a)),ij)):aj(ik,n(c(2,a))),k=u(_(j),i);return aR(C(n(a),k))}function
+qU(b,d){var
+h=b?a:W(a),e=n(h),f=qT(b,d,y3),g=qT(b,d,y4),i=aj(f,ff(b,d,e,f)),j=[0,C(aj(g,ff(b,d,g,e)),i),0],k=aj(e,ff(b,d,e,f)),l=[0,C(aj(g,ff(b,d,f,g)),k),j],m=aj(e,ff(b,d,g,e)),o=[0,C(aj(f,ff(b,d,f,g)),m),l],p=b?d?n(c(2,a)):u(n(c(2,c(2,a))),ij):n(c(2,c(2,a)));return[0,p,o]}function
+qV(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?w(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-k4(w,v,u,t){var
+k6(w,v,u,t){var
 a=d(function(a){return q(a,u,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
@@ -6787,12 +6802,12 @@ r=f;var
 s=r}else
 var
 s=a;return s}function
-qU(f,i,d,c,h){var
-j=f?a:e,b=J(i,j);function
+qW(f,i,d,c,h){var
+j=f?a:e,b=K(i,j);function
 g(a){var
-c=f?br(a):bR(a);return B(c,b)}var
+c=f?bq(a):bS(a);return B(c,b)}var
 k=[0,R(h),0],l=[0,[0,b,c,[0,t,[0,g(c),0]]],k];return[0,[0,b,d,[0,g(d),0]],l]}function
-qV(r,b,q,p,g,o,n){if(o){var
+qX(r,b,q,p,g,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(g){var
 h=g[2],c=0;if(h){var
@@ -6801,16 +6816,16 @@ a=0;c=1;e=1}else{var
 t=i[1],k=h[1],l=g[1],f=0;if(typeof
 j==="number")switch(j){case
 0:var
-A=d(aq,a4(y1)),z=d(R,0),a=k4(b,p,cS(0,b_(b,cX(0,g),z),q),A);c=1;e=1;f=1;break;case
+A=d(aq,a4(y5)),z=d(R,0),a=k6(b,p,cS(0,b_(b,cX(0,g),z),q),A);c=1;e=1;f=1;break;case
 3:var
 a=D(k[2],l[1]);c=1;e=1;f=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-B=d(qT,y2),a=k4(b,p,cS(0,b_(b,qU(r,b,l,k,t),0),q),B);c=1;e=1;f=1}else{var
+B=d(qV,y6),a=k6(b,p,cS(0,b_(b,qW(r,b,l,k,t),0),q),B);c=1;e=1;f=1}else{var
 a=m;c=1;e=1;f=1}else
 if(m){var
 a=0;c=1;e=1;f=1}else{var
-C=d(qT,y3),a=k4(b,p,cS(0,b_(b,qU(r,b,l,k,t),0),q),C);c=1;e=1;f=1}}if(!f)var
+C=d(qV,y7),a=k6(b,p,cS(0,b_(b,qW(r,b,l,k,t),0),q),C);c=1;e=1;f=1}}if(!f)var
 u=0}else
 var
 u=i;if(!e)var
@@ -6820,28 +6835,28 @@ v=h;if(!c){var
 w=v;s=1}}else{var
 w=g;s=1}if(s)var
 a=w;var
-y=a?y4:a}else
+y=a?y8:a}else
 var
 y=n;return y}return[0,n]}function
-qW(f,e,d,c,p,o,n){var
+qY(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;)switch(a[0]){case
 0:var
-h=qV(f,e,d,c,b,a[1],g);return h?L(h[1]):h;case
+h=qX(f,e,d,c,b,a[1],g);return h?J(h[1]):h;case
 1:var
-i=qV(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=ds(a[2],b),l=qW(f,e,d,c,k[1],j,a[3]);if(l){var
+i=qX(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=ds(a[2],b),l=qY(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m;default:return 0}}function
-k5(b){return cp(c(2,a),aX(b,a))}function
+k7(b){return cq(c(2,a),aX(b,a))}function
 fg(c,a,b,i,h){var
-f=dm(qS(a,b)),j=qS(a,b),k=d(cT(dl(f)),j),g=[0,e,cR(c)];return qW(a,c,f,k,[0,g,[0,g,[0,i,0]]],1,h)}function
-qX(a,g,b){if(I(g,k5(a))){if(b){var
+f=dm(qU(a,b)),j=qU(a,b),k=d(cT(dl(f)),j),g=[0,e,cR(c)];return qY(a,c,f,k,[0,g,[0,g,[0,i,0]]],1,h)}function
+qZ(a,g,b){if(I(g,k7(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,k5(a)],v=cR(a),i=[0,k5(a),v],j=fg(a,0,1,h,b[1]),k=j?fg(a,0,0,i,c[1]):j;if(k){var
+h=[0,g,k7(a)],v=cR(a),i=[0,k7(a),v],j=fg(a,0,1,h,b[1]),k=j?fg(a,0,0,i,c[1]):j;if(k){var
 l=fg(a,1,1,h,d[1]);if(l)return fg(a,1,0,i,e[1]);var
 m=l}else
 var
@@ -6866,296 +6881,296 @@ t=f;var
 u=t}else
 var
 u=b;return u}function
-k6(a){var
-b=[1,[2,e]];return bA(function(b,a){return[1,[3,b,a]]},a,b)}function
-ik(a){return k6(d(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-il(a,c){return k6(d(function(a){var
-e=[0,a[2]],b=M(a[1],c);return[1,[7,[1,[8,k6(d(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],e]]},a))}function
-qY(e,d,c,b,a){if(0===a[0])return q(a[1],b,0);var
-f=a[1],g=b9(function(a){return qY(e,d,c,b,a)},f);return h(b_(e,d,c),g)}function
-qZ(a){return a?I(e,a[1][2][1]):a}function
-y5(a){var
-b=m(f(a),y6);return b?ag(function(a){return L(H(a,e))},a):b}function
-q0(c,f,b,a){if(b)if(a)var
-d=b[1],g=r(c,J(c,a[1]),f),h=q0(c,f,b[2],a[2]),i=d[3],j=w(d[2],g),e=[0,[0,w(d[1],g),j,i],h];else
+k8(a){var
+b=[1,[2,e]];return bz(function(b,a){return[1,[3,b,a]]},a,b)}function
+il(a){return k8(d(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+im(a,c){return k8(d(function(a){var
+e=[0,a[2]],b=M(a[1],c);return[1,[7,[1,[8,k8(d(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],e]]},a))}function
+q0(e,d,c,b,a){if(0===a[0])return q(a[1],b,0);var
+f=a[1],g=b9(function(a){return q0(e,d,c,b,a)},f);return h(b_(e,d,c),g)}function
+q1(a){return a?I(e,a[1][2][1]):a}function
+y9(a){var
+b=m(f(a),y_);return b?ag(function(a){return J(H(a,e))},a):b}function
+q2(c,f,b,a){if(b)if(a)var
+d=b[1],g=r(c,K(c,a[1]),f),h=q2(c,f,b[2],a[2]),i=d[3],j=w(d[2],g),e=[0,[0,w(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-q1(d,c){var
+q3(d,c){var
 a=F(c,d);if(a){var
-b=a[1],e=b[1];return L(H(cv(b),e))}return a}function
-im(b,a){return eI(eI(b,0),a)}function
-k7(a){if(a){var
-b=a[2],c=a[1];if(b)return im(c,[0,y8,k7(b)]);var
+b=a[1],e=b[1];return J(H(cw(b),e))}return a}function
+io(b,a){return eI(eI(b,0),a)}function
+k9(a){if(a){var
+b=a[2],c=a[1];if(b)return io(c,[0,za,k9(b)]);var
 d=c}else
 var
 d=a;return d}function
-K(a){return[0,y_,im(k7(a),y9)]}function
-al(a){return[0,za,im(k7(a),y$)]}function
-ay(a){return[0,zc,[0,a,zb]]}function
-o(b,a){return[0,bo(ze,bo(b,zd)),a]}function
+L(a){return[0,zc,io(k9(a),zb)]}function
+al(a){return[0,ze,io(k9(a),zd)]}function
+ay(a){return[0,zg,[0,a,zf]]}function
+o(b,a){return[0,bo(zi,bo(b,zh)),a]}function
 U(b,a){return al([0,o(b,a),0])}function
 c6(d){var
-b=d,a=uG,e=0;for(;;){if(b){var
-c=mw(a),b=b[1],a=c;continue}return[0,fI(gY(a)),e]}}function
-k8(a){return[0,fI(g9(a)),0]}function
-gp(a){var
-c=a1(a),f=0,b=0===c?uM:0<c?[0,g9(a)]:[1,g9(W(a))];if(0===b[0])var
+b=d,a=uI,e=0;for(;;){if(b){var
+c=my(a),b=b[1],a=c;continue}return[0,fI(gZ(a)),e]}}function
+k_(a){return[0,fI(g_(a)),0]}function
+gq(a){var
+c=a1(a),f=0,b=0===c?uO:0<c?[0,g_(a)]:[1,g_(W(a))];if(0===b[0])var
 d=fI(b[1]);else
 var
-e=fI(b[1]),d=bo(b5(1,45),e);return[0,d,f]}function
+e=fI(b[1]),d=bo(b6(1,45),e);return[0,d,f]}function
 ek(a){var
-b=0,c=0<a1(a)?g9(a):uK;return[0,fI(c),b]}function
-k9(a){switch(a[0]){case
-2:return zg;case
-3:return 2<=a[1]?zh:zi;case
-4:return zj;default:return zf}}function
-gq(b,a){function
-c(c,a){return ae(c,k9(a))?gq(b,a):[0,zp,g(gq(b,a),zo)]}switch(a[0]){case
+b=0,c=0<a1(a)?g_(a):uM;return[0,fI(c),b]}function
+k$(a){switch(a[0]){case
+2:return zk;case
+3:return 2<=a[1]?zl:zm;case
+4:return zn;default:return zj}}function
+gr(b,a){function
+c(c,a){return ae(c,k$(a))?gr(b,a):[0,zt,g(gr(b,a),zs)]}switch(a[0]){case
 0:var
 e=a[2],f=a[1];if(typeof
-e==="number")return[0,bB(f),0];var
-i=[0,zq,[0,bB(e),0]];return[0,bB(f),i];case
+e==="number")return[0,bA(f),0];var
+i=[0,zu,[0,bA(e),0]];return[0,bA(f),i];case
 1:return[0,h(b,a[1]),0];case
-2:return[0,zs,c(zr,a[1])];case
+2:return[0,zw,c(zv,a[1])];case
 3:var
-j=a[3],k=c([0,k9(a)],j);switch(a[1]){case
+j=a[3],k=c([0,k$(a)],j);switch(a[1]){case
 0:var
-d=zk;break;case
+d=zo;break;case
 1:var
-d=zl;break;case
+d=zp;break;case
 2:var
-d=zm;break;default:var
-d=zn}var
-l=a[2];return g(c(k9(a),l),[0,d,k]);case
+d=zq;break;default:var
+d=zr}var
+l=a[2];return g(c(k$(a),l),[0,d,k]);case
 4:var
-m=[0,zt,k8(a[2])];return g(c(zu,a[1]),m);default:return[0,zw,g(gq(b,a[1]),zv)]}}function
-V(a){return[0,zz,g(gq(function(a){return 0===a[0]?a[1]:zy},a),zx)]}function
-k_(a){return[0,zB,g(gq(function(a){return a},a),zA)]}function
+m=[0,zx,k_(a[2])];return g(c(zy,a[1]),m);default:return[0,zA,g(gr(b,a[1]),zz)]}}function
+V(a){return[0,zD,g(gr(function(a){return 0===a[0]?a[1]:zC},a),zB)]}function
+la(a){return[0,zF,g(gr(function(a){return a},a),zE)]}function
 c7(a){if(0===a[0])return V(a[1]);var
-b=[0,o(zC,V(a[2])),0];return al([0,o(zD,V(a[1])),b])}function
-io(b,a){var
-c=[0,h(b,a[3]),0],d=[0,h(b,a[2]),c];return K([0,h(b,a[1]),d])}function
-zE(a){function
-b(a){return io(c7,a)}switch(a[0]){case
+b=[0,o(zG,V(a[2])),0];return al([0,o(zH,V(a[1])),b])}function
+ip(b,a){var
+c=[0,h(b,a[3]),0],d=[0,h(b,a[2]),c];return L([0,h(b,a[1]),d])}function
+zI(a){function
+b(a){return ip(c7,a)}switch(a[0]){case
 0:var
-e=0,f=a[5]?zF:zN,h=[0,o(zG,ay(f)),e],i=[0,o(zH,c7(a[4])),h],j=[0,o(zI,b(a[3])),i],k=[0,o(zJ,b(a[2])),j],l=[0,o(zK,b(a[1])),k],c=[0,o(zM,ay(zL)),l];break;case
+e=0,f=a[5]?zJ:zR,h=[0,o(zK,ay(f)),e],i=[0,o(zL,c7(a[4])),h],j=[0,o(zM,b(a[3])),i],k=[0,o(zN,b(a[2])),j],l=[0,o(zO,b(a[1])),k],c=[0,o(zQ,ay(zP)),l];break;case
 1:var
-d=a[3],m=d?[0,o(zO,b(d[1])),0]:d,n=[0,o(zP,b(a[2])),0],p=[0,o(zQ,b(a[1])),n],c=g([0,o(zS,ay(zR)),p],m);break;default:var
-q=[0,o(zT,b(a[1])),0],c=[0,o(zV,ay(zU)),q]}return al(c)}function
-zW(a){function
-b(a){return K(d(c7,a))}function
+d=a[3],m=d?[0,o(zS,b(d[1])),0]:d,n=[0,o(zT,b(a[2])),0],p=[0,o(zU,b(a[1])),n],c=g([0,o(zW,ay(zV)),p],m);break;default:var
+q=[0,o(zX,b(a[1])),0],c=[0,o(zZ,ay(zY)),q]}return al(c)}function
+z0(a){function
+b(a){return L(d(c7,a))}function
 f(a){var
-b=a?zX:zZ;return o(zY,ay(b))}switch(a[0]){case
+b=a?z1:z3;return o(z2,ay(b))}switch(a[0]){case
 0:var
-h=[0,f(a[5]),0],i=[0,o(z0,c7(a[4])),h],j=[0,o(z1,b(a[3])),i],k=[0,o(z2,b(a[2])),j],l=[0,o(z3,b(a[1])),k],c=[0,o(z5,ay(z4)),l];break;case
+h=[0,f(a[5]),0],i=[0,o(z4,c7(a[4])),h],j=[0,o(z5,b(a[3])),i],k=[0,o(z6,b(a[2])),j],l=[0,o(z7,b(a[1])),k],c=[0,o(z9,ay(z8)),l];break;case
 1:var
-e=a[3],m=e?[0,o(z6,b(e[1])),0]:e,n=[0,o(z7,b(a[2])),0],p=[0,o(z8,b(a[1])),n],c=g([0,o(z_,ay(z9)),p],m);break;case
+e=a[3],m=e?[0,o(z_,b(e[1])),0]:e,n=[0,o(z$,b(a[2])),0],p=[0,o(Aa,b(a[1])),n],c=g([0,o(Ac,ay(Ab)),p],m);break;case
 2:var
-q=[0,o(z$,b(a[1])),0],c=[0,o(Ab,ay(Aa)),q];break;default:var
-r=[0,f(a[7]),0],s=[0,o(Ac,c7(a[6])),r],t=[0,o(Ad,c7(a[5])),s],u=[0,o(Ae,b(a[4])),t],v=[0,o(Af,b(a[3])),u],w=[0,o(Ag,b(a[2])),v],x=[0,o(Ah,b(a[1])),w],c=[0,o(Aj,ay(Ai)),x]}return al(c)}function
-k$(a){switch(a){case
-0:return Ak;case
-1:return Al;case
-2:return Am;case
-3:return An;case
-4:return Ao;case
-5:return Ap;case
-6:return Aq;case
-7:return Ar;case
-8:return As;case
-9:return At;case
-10:return Au;case
-11:return Av;case
-12:return Aw;case
-13:return Ax;case
-14:return Ay;case
-15:return Az;default:return AA}}function
-la(a){if(typeof
-a==="number")return AB;else
+q=[0,o(Ad,b(a[1])),0],c=[0,o(Af,ay(Ae)),q];break;default:var
+r=[0,f(a[7]),0],s=[0,o(Ag,c7(a[6])),r],t=[0,o(Ah,c7(a[5])),s],u=[0,o(Ai,b(a[4])),t],v=[0,o(Aj,b(a[3])),u],w=[0,o(Ak,b(a[2])),v],x=[0,o(Al,b(a[1])),w],c=[0,o(An,ay(Am)),x]}return al(c)}function
+lb(a){switch(a){case
+0:return Ao;case
+1:return Ap;case
+2:return Aq;case
+3:return Ar;case
+4:return As;case
+5:return At;case
+6:return Au;case
+7:return Av;case
+8:return Aw;case
+9:return Ax;case
+10:return Ay;case
+11:return Az;case
+12:return AA;case
+13:return AB;case
+14:return AC;case
+15:return AD;default:return AE}}function
+lc(a){if(typeof
+a==="number")return AF;else
 switch(a[0]){case
-0:return AC;case
-1:return AD;default:return AE}}function
-gr(a){var
+0:return AG;case
+1:return AH;default:return AI}}function
+gs(a){var
 c=a[4];if(typeof
 c==="number")var
 e=0;else
 switch(c[0]){case
 0:var
-e=[0,o(AF,V(c[1])),0];break;case
+e=[0,o(AJ,V(c[1])),0];break;case
 1:var
-e=[0,o(AG,V(c[1])),0];break;default:var
-n=[0,V(c[2]),0],e=[0,o(AH,K([0,V(c[1]),n])),0]}var
-p=[0,o(AI,ay(la(a[4]))),e],i=a[3];if(i){var
+e=[0,o(AK,V(c[1])),0];break;default:var
+n=[0,V(c[2]),0],e=[0,o(AL,L([0,V(c[1]),n])),0]}var
+p=[0,o(AM,ay(lc(a[4]))),e],i=a[3];if(i){var
 b=i[1];switch(b[0]){case
 0:var
-r=K([0,V(b[1]),0]),k=a[1],q=0,s=6===k?AJ:12===k?AN:AO,f=[0,o(AK,U(s,r)),q];break;case
+r=L([0,V(b[1]),0]),k=a[1],q=0,s=6===k?AN:12===k?AR:AS,f=[0,o(AO,U(s,r)),q];break;case
 1:var
-x=K(d(V,b[1])),m=a[1],w=0;if(14<=m)switch(m+sY|0){case
+x=L(d(V,b[1])),m=a[1],w=0;if(14<=m)switch(m+s0|0){case
 0:var
-h=AP;break;case
+h=AT;break;case
 1:var
-h=AR;break;default:var
-h=AS}else
+h=AV;break;default:var
+h=AW}else
 var
-h=AT;var
-f=[0,o(AQ,U(h,x)),w];break;case
+h=AX;var
+f=[0,o(AU,U(h,x)),w];break;case
 2:var
-y=[0,o(AU,K([0,V(b[2]),0])),0],f=[0,o(AW,al([0,o(AV,K([0,V(b[1]),0])),y])),0];break;default:var
-z=[0,o(AX,K([0,V(b[2]),0])),0],f=[0,o(AZ,al([0,o(AY,K([0,V(b[1]),0])),z])),0]}var
+y=[0,o(AY,L([0,V(b[2]),0])),0],f=[0,o(A0,al([0,o(AZ,L([0,V(b[1]),0])),y])),0];break;default:var
+z=[0,o(A1,L([0,V(b[2]),0])),0],f=[0,o(A3,al([0,o(A2,L([0,V(b[1]),0])),z])),0]}var
 l=f}else
 var
 l=i;var
-t=g(l,p),j=a[2],u=j?[0,o(AL,c6(j[1])),0]:j,v=g(u,t);return al([0,o(AM,ay(k$(a[1]))),v])}function
-q2(a){if(0===a[0]){var
-b=[0,o(A0,io(V,a[2])),0];return U(A2,al([0,o(A1,io(V,a[1])),b]))}var
-c=[0,V(a[5]),0],d=[0,o(A3,K([0,V(a[4]),c])),0],e=[0,o(A4,V(a[3])),d],f=[0,V(a[2]),0];return U(A6,al([0,o(A5,K([0,V(a[1]),f])),e]))}function
-q3(a){if(0===a[0]){var
-b=[0,o(A7,K(d(V,a[2]))),0];return U(A9,al([0,o(A8,K(d(V,a[1]))),b]))}return q2([1,a[1],a[2],a[3],a[4],a[5]])}function
-q4(a){switch(a){case
-0:return A_;case
-1:return A$;default:return Ba}}function
-Bb(a){function
-b(a){return K(d(c7,a))}var
-c=[0,o(Bc,b(a[2])),0],e=[0,o(Bd,b(a[1])),c];return al([0,o(Bf,ay(Be)),e])}function
-q5(a){function
+t=g(l,p),j=a[2],u=j?[0,o(AP,c6(j[1])),0]:j,v=g(u,t);return al([0,o(AQ,ay(lb(a[1]))),v])}function
+q4(a){if(0===a[0]){var
+b=[0,o(A4,ip(V,a[2])),0];return U(A6,al([0,o(A5,ip(V,a[1])),b]))}var
+c=[0,V(a[5]),0],d=[0,o(A7,L([0,V(a[4]),c])),0],e=[0,o(A8,V(a[3])),d],f=[0,V(a[2]),0];return U(A_,al([0,o(A9,L([0,V(a[1]),f])),e]))}function
+q5(a){if(0===a[0]){var
+b=[0,o(A$,L(d(V,a[2]))),0];return U(Bb,al([0,o(Ba,L(d(V,a[1]))),b]))}return q4([1,a[1],a[2],a[3],a[4],a[5]])}function
+q6(a){switch(a){case
+0:return Bc;case
+1:return Bd;default:return Be}}function
+Bf(a){function
+b(a){return L(d(c7,a))}var
+c=[0,o(Bg,b(a[2])),0],e=[0,o(Bh,b(a[1])),c];return al([0,o(Bj,ay(Bi)),e])}function
+q7(a){function
 b(b,a){var
-c=[0,V(a),0];return K([0,V(b),c])}switch(a[0]){case
-0:return U(Bg,b(a[1],a[2]));case
+c=[0,V(a),0];return L([0,V(b),c])}switch(a[0]){case
+0:return U(Bk,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,o(Bh,b(c[1],c[2])),0],g=[0,o(Bi,b(d[1],d[2])),f];return U(Bk,al([0,o(Bj,b(e[1],e[2])),g]));case
-2:return U(Bl,V(a[1]));default:var
-h=[0,o(Bm,V(a[2])),0];return U(Bo,al([0,o(Bn,V(a[1])),h]))}}function
-Bp(a){function
-b(a){return io(V,a)}if(0===a[0])var
-c=a[5],e=c?[0,o(Bq,b(c[1])),0]:c,f=[0,V(a[4]),0],h=[0,o(Br,K([0,V(a[3]),f])),0],i=[0,o(Bs,V(a[2])),h],j=[0,o(Bt,c6(a[1])),i],d=g([0,o(Bv,ay(Bu)),j],e);else
+c=a[3],d=a[2],e=a[1],f=[0,o(Bl,b(c[1],c[2])),0],g=[0,o(Bm,b(d[1],d[2])),f];return U(Bo,al([0,o(Bn,b(e[1],e[2])),g]));case
+2:return U(Bp,V(a[1]));default:var
+h=[0,o(Bq,V(a[2])),0];return U(Bs,al([0,o(Br,V(a[1])),h]))}}function
+Bt(a){function
+b(a){return ip(V,a)}if(0===a[0])var
+c=a[5],e=c?[0,o(Bu,b(c[1])),0]:c,f=[0,V(a[4]),0],h=[0,o(Bv,L([0,V(a[3]),f])),0],i=[0,o(Bw,V(a[2])),h],j=[0,o(Bx,c6(a[1])),i],d=g([0,o(Bz,ay(By)),j],e);else
 var
-k=[0,o(Bw,V(a[4])),0],l=[0,o(Bx,b(a[3])),k],m=[0,o(By,b(a[2])),l],n=a[1]?Bz:BB,d=[0,o(BA,ay(n)),m];return al(d)}function
-q6(a){var
-b=a?[0,o(BC,K(d(Bp,a))),0]:a;return b}function
-lb(e,c,b,a){var
-f=[0,o(BD,K(d(gr,a))),0],h=g(q6(b),f),i=[0,o(BE,q2(c)),0];return al(g([0,o(BG,U(BF,K(d(zE,e)))),i],h))}function
-BH(a){switch(a[0]){case
-0:return U(BI,lb(a[1],a[2],a[3],a[4]));case
+k=[0,o(BA,V(a[4])),0],l=[0,o(BB,b(a[3])),k],m=[0,o(BC,b(a[2])),l],n=a[1]?BD:BF,d=[0,o(BE,ay(n)),m];return al(d)}function
+q8(a){var
+b=a?[0,o(BG,L(d(Bt,a))),0]:a;return b}function
+ld(e,c,b,a){var
+f=[0,o(BH,L(d(gs,a))),0],h=g(q8(b),f),i=[0,o(BI,q4(c)),0];return al(g([0,o(BK,U(BJ,L(d(zI,e)))),i],h))}function
+BL(a){switch(a[0]){case
+0:return U(BM,ld(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],e=a[1],f=K(d(zW,a[2])),l=[0,o(BJ,K(d(gr,a[6]))),0],m=b?[0,o(BK,q5(b[1])),0]:b,n=g(m,l),k=0,p=[0,o(BL,q3(a[4])),n];if(typeof
+b=a[5],c=a[3],e=a[1],f=L(d(z0,a[2])),l=[0,o(BN,L(d(gs,a[6]))),0],m=b?[0,o(BO,q7(b[1])),0]:b,n=g(m,l),k=0,p=[0,o(BP,q5(a[4])),n];if(typeof
 e==="number")if(e)var
-h=BM;else{var
-i=U(BR,f);k=1}else
+h=BQ;else{var
+i=U(BV,f);k=1}else
 var
-h=q4(e[1]);if(!k)var
-q=c?[0,o(BN,V(c[1])),0]:c,i=U(h,al([0,o(BO,f),q]));return U(BQ,al([0,o(BP,i),p]));case
+h=q6(e[1]);if(!k)var
+q=c?[0,o(BR,V(c[1])),0]:c,i=U(h,al([0,o(BS,f),q]));return U(BU,al([0,o(BT,i),p]));case
 2:var
-r=[0,o(BS,K(d(gr,a[7]))),0],s=g(q6(a[6]),r),t=[0,o(BT,q5(a[5])),0],u=[0,o(BU,q3(a[4])),t],v=[0,o(BV,V(a[3])),0],w=al([0,o(BW,K(d(Bb,a[2]))),v]);return U(BY,al(g([0,o(BX,U(q4(a[1]),w)),u],s)));case
+r=[0,o(BW,L(d(gs,a[7]))),0],s=g(q8(a[6]),r),t=[0,o(BX,q7(a[5])),0],u=[0,o(BY,q5(a[4])),t],v=[0,o(BZ,V(a[3])),0],w=al([0,o(B0,L(d(Bf,a[2]))),v]);return U(B2,al(g([0,o(B1,U(q6(a[1]),w)),u],s)));case
 3:var
-x=[0,o(BZ,K(d(gr,a[7]))),0],y=[0,o(B0,K(d(V,a[6]))),0],z=[0,o(B3,U(B2,al([0,o(B1,K(d(V,a[5]))),y]))),x],A=0,B=a[4],C=[0,o(B6,K(d(function(a){return 0===a[0]?U(B4,K(d(k_,a[1]))):U(B5,k_(a[1]))},B))),A],D=a[3],E=[0,o(B7,K(d(function(a){var
-b=[0,k_(a[2]),0];return K([0,ay(a[1]),b])},D))),C],F=a[2],G=[0,o(B8,K(d(function(a){var
-b=[0,c7(a[2]),0];return K([0,ay(a[1]),b])},F))),E];return U(Ca,al([0,o(B$,U(B_,al([0,o(B9,K(d(ay,a[1]))),G]))),z]));case
+x=[0,o(B3,L(d(gs,a[7]))),0],y=[0,o(B4,L(d(V,a[6]))),0],z=[0,o(B7,U(B6,al([0,o(B5,L(d(V,a[5]))),y]))),x],A=0,B=a[4],C=[0,o(B_,L(d(function(a){return 0===a[0]?U(B8,L(d(la,a[1]))):U(B9,la(a[1]))},B))),A],D=a[3],E=[0,o(B$,L(d(function(a){var
+b=[0,la(a[2]),0];return L([0,ay(a[1]),b])},D))),C],F=a[2],G=[0,o(Ca,L(d(function(a){var
+b=[0,c7(a[2]),0];return L([0,ay(a[1]),b])},F))),E];return U(Ce,al([0,o(Cd,U(Cc,al([0,o(Cb,L(d(ay,a[1]))),G]))),z]));case
 4:var
-H=[0,o(Cb,K(d(gr,a[3]))),0],I=[0,o(Ce,U(Cd,al([0,o(Cc,V(a[2])),0]))),H];return U(Ci,al([0,o(Ch,U(Cg,al([0,o(Cf,V(a[1])),0]))),I]));case
+H=[0,o(Cf,L(d(gs,a[3]))),0],I=[0,o(Ci,U(Ch,al([0,o(Cg,V(a[2])),0]))),H];return U(Cm,al([0,o(Cl,U(Ck,al([0,o(Cj,V(a[1])),0]))),I]));case
 5:var
-J=[0,o(Cj,V(a[5])),0];return U(Cl,al([0,o(Ck,lb(a[1],[0,a[2],a[3]],0,a[4])),J]));case
+J=[0,o(Cn,V(a[5])),0];return U(Cp,al([0,o(Co,ld(a[1],[0,a[2],a[3]],0,a[4])),J]));case
 6:var
-j=a[1],L=0,M=j?c7(j[1]):ay(Co);return U(Cn,al([0,o(Cm,M),L]));default:var
-N=[0,o(Cp,V(a[6])),0],O=[0,o(Cq,V(a[5])),N],P=[0,o(Cr,lb(a[2],a[3],0,a[4])),O],Q=a[1];return U(Cw,al([0,o(Cv,K(d(function(a){var
-b=[0,o(Cs,V(a[2][2])),0],c=[0,o(Ct,V(a[2][1])),b];return al([0,o(Cu,ay(a[1])),c])},Q))),P]))}}function
-c8(a){return K(d(gp,a))}function
-gs(b,a){var
-c=[0,o(Cx,ek(a)),0];return al([0,o(Cy,K(d(c8,b))),c])}function
+j=a[1],K=0,M=j?c7(j[1]):ay(Cs);return U(Cr,al([0,o(Cq,M),K]));default:var
+N=[0,o(Ct,V(a[6])),0],O=[0,o(Cu,V(a[5])),N],P=[0,o(Cv,ld(a[2],a[3],0,a[4])),O],Q=a[1];return U(CA,al([0,o(Cz,L(d(function(a){var
+b=[0,o(Cw,V(a[2][2])),0],c=[0,o(Cx,V(a[2][1])),b];return al([0,o(Cy,ay(a[1])),c])},Q))),P]))}}function
+c8(a){return L(d(gq,a))}function
+gt(b,a){var
+c=[0,o(CB,ek(a)),0];return al([0,o(CC,L(d(c8,b))),c])}function
 c9(a){switch(a[0]){case
 0:return ay(a[1]);case
 1:var
-b=gs(a[2],a[3]);return U(a[1],b);case
+b=gt(a[2],a[3]);return U(a[1],b);case
 2:var
-c=a[1]?Cz:CB;return U(CA,ay(c));case
+c=a[1]?CD:CF;return U(CE,ay(c));case
 3:var
-e=[0,c8(a[3]),0];return U(CC,K([0,gs(a[1],a[2]),e]));case
+e=[0,c8(a[3]),0];return U(CG,L([0,gt(a[1],a[2]),e]));case
 4:var
-f=[0,ek(a[4]),0],g=[0,gp(a[3]),f];return U(CD,K([0,gs(a[1],a[2]),g]));case
+f=[0,ek(a[4]),0],g=[0,gq(a[3]),f];return U(CH,L([0,gt(a[1],a[2]),g]));case
 5:var
-h=[0,ek(a[3]),0],i=[0,gp(a[2]),h];return U(CE,K([0,c9(a[1]),i]));case
+h=[0,ek(a[3]),0],i=[0,gq(a[2]),h];return U(CI,L([0,c9(a[1]),i]));case
 6:var
-j=[0,ek(a[3]),0],k=[0,gp(a[2]),j];return U(CF,K([0,c9(a[1]),k]));case
-7:return U(CG,c9(a[1]));case
+j=[0,ek(a[3]),0],k=[0,gq(a[2]),j];return U(CJ,L([0,c9(a[1]),k]));case
+7:return U(CK,c9(a[1]));case
 8:var
-l=[0,K(d(c8,a[3])),0],m=[0,ay(a[2]),l];return U(CH,K([0,c9(a[1]),m]));case
+l=[0,L(d(c8,a[3])),0],m=[0,ay(a[2]),l];return U(CL,L([0,c9(a[1]),m]));case
 9:var
-n=a[1];return U(CI,K(d(function(a){var
-b=a[1],c=b[1],d=[0,c9(a[2]),0],e=[0,ek(b[2]),d],f=[0,gp(c[2]),e];return K([0,c8(c[1]),f])},n)));case
+n=a[1];return U(CM,L(d(function(a){var
+b=a[1],c=b[1],d=[0,c9(a[2]),0],e=[0,ek(b[2]),d],f=[0,gq(c[2]),e];return L([0,c8(c[1]),f])},n)));case
 10:var
-o=[0,c9(a[5]),0],p=[0,c9(a[4]),o],q=[0,K(d(c8,a[3])),p],r=[0,ek(a[2]),q];return U(CJ,K([0,c8(a[1]),r]));default:var
-s=[0,ek(a[3]),0],t=[0,K(d(c8,a[2])),s];return U(CK,K([0,c9(a[1]),t]))}}function
-CL(a){var
-b=[0,c9(a[2]),0];return K([0,c6(a[1]),b])}function
-q7(a){if(typeof
-a==="number")return 0===a?ay(CM):ay(CN);else
+o=[0,c9(a[5]),0],p=[0,c9(a[4]),o],q=[0,L(d(c8,a[3])),p],r=[0,ek(a[2]),q];return U(CN,L([0,c8(a[1]),r]));default:var
+s=[0,ek(a[3]),0],t=[0,L(d(c8,a[2])),s];return U(CO,L([0,c9(a[1]),t]))}}function
+CP(a){var
+b=[0,c9(a[2]),0];return L([0,c6(a[1]),b])}function
+q9(a){if(typeof
+a==="number")return 0===a?ay(CQ):ay(CR);else
 switch(a[0]){case
 0:var
-b=[0,K(d(c8,a[2])),0];return U(CO,K([0,c6(a[1]),b]));case
+b=[0,L(d(c8,a[2])),0];return U(CS,L([0,c6(a[1]),b]));case
 1:var
-c=[0,c6(a[2]),0];return U(CP,K([0,c6(a[1]),c]));case
-2:return U(CQ,K(d(V,a[1])));default:var
-e=[0,o(CR,gs(a[4],a[5])),0],f=[0,o(CS,K(d(V,a[3]))),e],g=[0,o(CT,K(d(V,a[2]))),f];return U(CV,al([0,o(CU,c6(a[1])),g]))}}function
-CW(a){var
-b=a[4],h=b?[0,o(CX,c8([0,b[1],b[2]])),0]:b,e=a[3],i=e?[0,o(CY,q7(e[1])),0]:e,j=g(i,h),f=a[2],k=f?[0,o(CZ,c6(f[1])),0]:f,l=g(k,j),c=a[1],m=c?[0,o(C0,K(d(CL,[0,c[1],c[2]]))),0]:c;return al(g(m,l))}function
-q8(f,a,e){var
-h=[0,o(C1,K(d(CW,e))),0];if(a)var
-b=a[1],c=[0,o(C2,gs(b[1],b[2])),0];else
+c=[0,c6(a[2]),0];return U(CT,L([0,c6(a[1]),c]));case
+2:return U(CU,L(d(V,a[1])));default:var
+e=[0,o(CV,gt(a[4],a[5])),0],f=[0,o(CW,L(d(V,a[3]))),e],g=[0,o(CX,L(d(V,a[2]))),f];return U(CZ,al([0,o(CY,c6(a[1])),g]))}}function
+C0(a){var
+b=a[4],h=b?[0,o(C1,c8([0,b[1],b[2]])),0]:b,e=a[3],i=e?[0,o(C2,q9(e[1])),0]:e,j=g(i,h),f=a[2],k=f?[0,o(C3,c6(f[1])),0]:f,l=g(k,j),c=a[1],m=c?[0,o(C4,L(d(CP,[0,c[1],c[2]]))),0]:c;return al(g(m,l))}function
+q_(f,a,e){var
+h=[0,o(C5,L(d(C0,e))),0];if(a)var
+b=a[1],c=[0,o(C6,gt(b[1],b[2])),0];else
 var
 c=a;var
-i=g(c,h);return al([0,o(C3,k8(f)),i])}function
-q9(e,c,a,b){var
-f=[0,o(C4,q7(b)),0],h=a?[0,o(C5,K(d(V,a))),0]:a,i=g(h,f),j=[0,o(C6,K(d(V,c))),0];return al(g([0,o(C7,k8(e)),j],i))}function
-C8(a){if(typeof
-a==="number")return ay(C9);else
+i=g(c,h);return al([0,o(C7,k_(f)),i])}function
+q$(e,c,a,b){var
+f=[0,o(C8,q9(b)),0],h=a?[0,o(C9,L(d(V,a))),0]:a,i=g(h,f),j=[0,o(C_,L(d(V,c))),0];return al(g([0,o(C$,k_(e)),j],i))}function
+Da(a){if(typeof
+a==="number")return ay(Db);else
 switch(a[0]){case
-0:return U(C_,c6(a[1]));case
-1:return U(C$,q8(a[1],a[2],a[3]));default:return U(Da,q9(a[1],a[2],a[3],a[4]))}}function
-ip(a){var
-b=jg(jf(aI(a),function(b){return be(a,b)}));return k(function(a){var
-b=L(34===a?1:0),c=b?L(92===a?1:0):b,d=c?mP(32,a):c;return d?mP(a,126):d},b)}function
-lc(d){var
+0:return U(Dc,c6(a[1]));case
+1:return U(Dd,q_(a[1],a[2],a[3]));default:return U(De,q$(a[1],a[2],a[3],a[4]))}}function
+iq(a){var
+b=jh(jg(aI(a),function(b){return be(a,b)}));return k(function(a){var
+b=J(34===a?1:0),c=b?J(92===a?1:0):b,d=c?mR(32,a):c;return d?mR(a,126):d},b)}function
+le(d){var
 a=d;for(;;)switch(a[0]){case
 8:var
-b=ip(a[2]);if(b){var
+b=iq(a[2]);if(b){var
 a=a[1];continue}return b;case
 9:var
-e=a[1];return k(function(a){return lc(a[2])},e);case
+e=a[1];return k(function(a){return le(a[2])},e);case
 10:var
-c=lc(a[4]);if(c){var
+c=le(a[4]);if(c){var
 a=a[5];continue}return c;case
 0:case
-1:return ip(a[1]);case
+1:return iq(a[1]);case
 2:case
 3:case
 4:return 1;default:var
 a=a[1];continue}}function
-gt(b){function
+gu(b){function
 c(f){var
-a=mO(f),b=ae(Dp,a),c=b?ae(a,Dq):b;if(c)var
+a=mQ(f),b=ae(Dt,a),c=b?ae(a,Du):b;if(c)var
 d=c;else{var
-e=ae(Dr,a);if(e)return ae(a,Ds);var
+e=ae(Dv,a);if(e)return ae(a,Dw);var
 d=e}return d}var
-a=jg(jf(aI(b),function(a){return be(b,a)}));if(a){var
+a=jh(jg(aI(b),function(a){return be(b,a)}));if(a){var
 d=a[2],e=c(a[1]),g=e?k(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=mO(a),f=ae(Dt,e),h=f?ae(e,Du):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,h=g?ae(f(d),Dv):g;if(h)return L(aM(b,Dw));var
+e=mQ(a),f=ae(Dx,e),h=f?ae(e,Dy):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,h=g?ae(f(d),Dz):g;if(h)return J(aM(b,DA));var
 i=h}else
 var
 i=a;return i}function
-ld(c){var
+lf(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return gt(a[1]);case
+1:return gu(a[1]);case
 3:var
-b=ld(a[2]);if(b){var
+b=lf(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-gu(m){var
+gv(m){var
 b=m;for(;;)switch(b[0]){case
 0:var
 e=b[1];if(typeof
@@ -7166,38 +7181,38 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=gY(b[2]);if(typeof
+f=gZ(b[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=gu(b[2]);if(i){var
+i=gv(b[2]);if(i){var
 b=b[3];continue}return i;case
 4:var
-j=b[2],k=gu(b[1]),l=k?g7(c(2,a),j):k;return l?g7(j,c(2,c(2,c(2,c(2,c(2,c(2,a))))))):l;default:var
+j=b[2],k=gv(b[1]),l=k?g8(c(2,a),j):k;return l?g8(j,c(2,c(2,c(2,c(2,c(2,c(2,a))))))):l;default:var
 b=b[1];continue}}function
 fh(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
 ch(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-el(a){return y(fh,ch(a))}function
-le(a){switch(a[0]){case
+el(a){return x(fh,ch(a))}function
+lg(a){switch(a[0]){case
 0:var
 c=fh(a[4]),d=g(el(a[3]),c),e=g(el(a[2]),d);return g(el(a[1]),e);case
 1:var
 b=a[3],f=b?el(b[1]):b,h=g(el(a[2]),f);return g(el(a[1]),h);default:return el(a[1])}}function
-Dx(a){switch(a[0]){case
+DB(a){switch(a[0]){case
 0:var
 d=g(a[3],[0,a[4],0]),e=g(a[2],d),b=g(a[1],e);break;case
 1:var
 c=a[3],f=c?c[1]:c,h=g(a[2],f),b=g(a[1],h);break;case
 2:var
 b=a[1];break;default:var
-i=g(a[4],[0,a[5],[0,a[6],0]]),j=g(a[3],i),k=g(a[2],j),b=g(a[1],k)}return y(fh,b)}function
-q_(a){return 0===a[0]?g(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-q$(a){if(0===a[0]){var
+i=g(a[4],[0,a[5],[0,a[6],0]]),j=g(a[3],i),k=g(a[2],j),b=g(a[1],k)}return x(fh,b)}function
+ra(a){return 0===a[0]?g(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+rb(a){if(0===a[0]){var
 b=ch(a[2]);return g(ch(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-ra(a){switch(a[0]){case
+rc(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
@@ -7213,31 +7228,31 @@ d=[0,b[1],[0,b[2],0]]}var
 f=d}else
 var
 f=c;return g(f,h)}function
-rb(a){if(0===a[0]){var
+rd(a){if(0===a[0]){var
 b=a[5],c=b?ch(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
 d=[0,a[4],0],e=g(ch(a[3]),d);return g(ch(a[2]),e)}function
-rc(b,e){var
+re(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
 f=c[1];return ag(function(a){return aM(f,a)},b)}return 0;case
 3:var
-d=rc(b,a[2]);if(d){var
+d=re(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-gv(c,a){return k(function(a){var
-b=gu(a);return b?rc(c,a):b},a)}function
-rd(a){if(typeof
+gw(c,a){return k(function(a){var
+b=gv(a);return b?re(c,a):b},a)}function
+rf(a){if(typeof
 a!=="number")switch(a[0]){case
 2:return a[1];case
 3:return g(a[2],a[3])}return 0}function
-re(b){var
-d=g7(c(2,c(2,c(2,c(2,c(2,a))))),b);return d?g7(b,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,a))))))))))):d}function
-rf(a,b){return b?[4,rf(a,b[1]),a]:a}function
+rg(b){var
+d=g8(c(2,c(2,c(2,c(2,c(2,a))))),b);return d?g8(b,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,a))))))))))):d}function
+rh(a,b){return b?[4,rh(a,b[1]),a]:a}function
 l(b){switch(b[0]){case
 0:var
-i=b[2],j=c(2,s(c(2,c(2,a)))),k=function(a){return E(j,a)},m=g0(mu(i),k,a);return[0,mI(mv(gY(b[1]),i)),m];case
+i=b[2],j=c(2,s(c(2,c(2,a)))),k=function(a){return E(j,a)},m=g1(mw(i),k,a);return[0,mK(mx(gZ(b[1]),i)),m];case
 1:var
 d=b[1];return 0===d[0]?[5,[0,a,a],[0,e,a]]:[1,d[1],d[2],d[3]];case
 2:var
@@ -7248,35 +7263,35 @@ g=l(b[2]),h=l(b[3]);switch(b[1]){case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=aY(fF(b[2]));return rf(l(b[1]),n);default:return[6,l(b[1])]}}function
+n=aY(fF(b[2]));return rh(l(b[1]),n);default:return[6,l(b[1])]}}function
 ci(a){if(0===a[0]){var
 b=l(a[1]);return[0,b,b]}var
 c=l(a[2]);return[0,l(a[1]),c]}function
 en(a){var
 b=ci(a[3]),c=ci(a[2]);return[0,ci(a[1]),c,b]}function
-Dy(a){switch(a[0]){case
+DC(a){switch(a[0]){case
 0:var
 b=a[5],c=ci(a[4]),d=en(a[3]),e=en(a[2]);return[0,[0,en(a[1]),e,d,c,b]];case
 1:var
-f=x(en,a[3]),g=en(a[2]);return[1,en(a[1]),g,f];default:return[2,en(a[1])]}}function
-rg(a){if(0===a[0]){var
+f=y(en,a[3]),g=en(a[2]);return[1,en(a[1]),g,f];default:return[2,en(a[1])]}}function
+ri(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=l(h(a,c));return[0,l(h(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
 g=l(a[5]),i=[0,l(a[4]),g],j=l(a[3]),k=l(a[2]);return[1,l(a[1]),k,j,i]}function
 fi(a){var
 b=l(a[3]),c=l(a[2]);return[0,l(a[1]),c,b]}function
-dG(b){if(0===b[0]){var
+dH(b){if(0===b[0]){var
 c=b[5],h=c?fi(c[1]):[0,[0,e,a],[0,e,a],[0,e,a]],i=l(b[4]),j=l(b[3]),k=l(b[2]);return[0,aY(b[1]),k,j,i,h]}var
 d=b[4],f=b[3],g=b[2];if(b[1]){var
 m=fi(f),n=fi(g);return[2,l(d),n,m]}var
 o=fi(f),p=fi(g);return[1,l(d),p,o]}function
-iq(b,a){if(a){var
-c=a[1],e=a[2],f=iq(g(b,[0,c,0]),e),h=d(function(a){return[0,c,a]},b);return g(aP(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:m(b[1],a[1]):0:0===a[0]?0:cN(b[1],a[1]);return L(d)},h),f)}return a}function
-Dz(b){if(b[1])return 0;var
+ir(b,a){if(a){var
+c=a[1],e=a[2],f=ir(g(b,[0,c,0]),e),h=d(function(a){return[0,c,a]},b);return g(aN(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:m(b[1],a[1]):0:0===a[0]?0:cp(b[1],a[1]);return J(d)},h),f)}return a}function
+DD(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,l(a[1])],0];return 0}function
-rh(N,M,b){switch(b[1]){case
+rj(N,M,b){switch(b[1]){case
 0:var
 g=b[4];if(typeof
 g!=="number"&&0===g[0])return[0,[1,l(g[1])],0];return 0;case
@@ -7331,14 +7346,14 @@ b=l(W);return[13,a,l(X),b]}}if(K)return 0;break;case
 9:var
 u=b[4];if(typeof
 u!=="number"&&0===u[0]){var
-Y=u[1],Z=iq(0,M);return d(function(h){var
+Y=u[1],Z=ir(0,M);return d(function(h){var
 d=l(Y),b=h[2],c=h[1];if(0===c[0]){var
 f=c[1];if(0===b[0]){var
 g=function(b){return b?fi(b[1]):[0,[0,e,a],[0,e,a],[0,e,a]]};if(m(f,b[1])){var
 i=l(b[2]),j=[2,[2,l(c[2]),i],d],k=g(b[5]),n=g(c[5]);return[11,aY(f),n,k,j]}var
-o=dG(b);return[10,dG(c),o,d]}var
-p=dG(b);return[10,dG(c),p,d]}var
-q=dG(b);return[10,dG(c),q,d]},Z)}return 0;case
+o=dH(b);return[10,dH(c),o,d]}var
+p=dH(b);return[10,dH(c),p,d]}var
+q=dH(b);return[10,dH(c),q,d]},Z)}return 0;case
 10:var
 v=b[4],L=0;if(typeof
 v==="number"||!(1===v[0]))L=1;else{var
@@ -7348,7 +7363,7 @@ $=x[2],aa=x[1],c=function(a){var
 b=l(_),c=l($);return[12,a,l(aa),c,b]}}if(L)return 0;break;case
 11:var
 G=typeof
-b[4]==="number"?1:0,ab=G?DA:G;return ab;case
+b[4]==="number"?1:0,ab=G?DE:G;return ab;case
 12:var
 y=b[4];if(typeof
 y!=="number"&&1===y[0]){var
@@ -7356,7 +7371,7 @@ z=b[3];if(z){var
 H=z[1];if(0===H[0]){var
 ac=l(y[1]);return[0,[14,l(H[1]),ac],0]}return 0}return z}return 0;default:return 0}var
 B=b[2],P=B?[0,aY(B[1]),0]:ax(0,N);return d(c,P)}function
-DB(c,a){switch(a[1]){case
+DF(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
 l!=="number"&&2!==l[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -7400,7 +7415,7 @@ z!=="number"&&0===z[0])return a[2]?0:a[3]?0:1;return 0;case
 N=0,A=a[4];if(typeof
 A==="number"||!(1===A[0]))N=1;else{var
 h=a[3];if(!h)return h;if(0!==h[1][0])return 0;var
-B=m(c,DD),O=0;if(B){var
+B=m(c,DH),O=0;if(B){var
 C=a[2];if(C){var
 b=C[1];O=1}else
 var
@@ -7426,17 +7441,17 @@ I=H;return I;case
 12:var
 J=a[4];if(typeof
 J!=="number"&&1===J[0]){if(a[2])return 0;var
-k=a[3];return k?0===k[1][0]?m(c,DE):0:k}return 0;default:return 0}var
-p=ae(DC,b);return p?ae(b,c):p}function
-ir(c,k,j,b){var
-l=f(c),e=y(function(a){return rh(l,j,a)},b),a=y(Dz,b),h=a?[0,a[1],a[2]]:DF,i=g(h,e),m=rg(k);return[0,d(Dy,c),m,i]}function
-ri(b){if(b[1])return 0;var
+k=a[3];return k?0===k[1][0]?m(c,DI):0:k}return 0;default:return 0}var
+p=ae(DG,b);return p?ae(b,c):p}function
+is(c,k,j,b){var
+l=f(c),e=x(function(a){return rj(l,j,a)},b),a=x(DD,b),h=a?[0,a[1],a[2]]:DJ,i=g(h,e),m=ri(k);return[0,d(DC,c),m,i]}function
+rk(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,l(a[1])],0];return 0}function
-rj(c){function
+rl(c){function
 b(b){return q(b,d(l,c),[0,e,a])}var
-f=b(DG),g=b(DH);return[0,b(0),g,f]}function
-is($,G,_,b){switch(b[1]){case
+f=b(DK),g=b(DL);return[0,b(0),g,f]}function
+it($,G,_,b){switch(b[1]){case
 0:var
 h=b[4];if(typeof
 h!=="number"&&0===h[0])return[0,[1,l(h[1])],0];return 0;case
@@ -7490,8 +7505,8 @@ b=l(ak);return[7,a,l(al),b]}}if(T)return 0;break;case
 9:var
 t=b[4];if(typeof
 t!=="number"&&0===t[0]){var
-am=t[1],an=iq(0,_);return d(function(a){var
-b=l(am),c=dG(a[2]);return[14,dG(a[1]),c,b]},an)}return 0;case
+am=t[1],an=ir(0,_);return d(function(a){var
+b=l(am),c=dH(a[2]);return[14,dH(a[1]),c,b]},an)}return 0;case
 10:var
 u=b[4],U=0;if(typeof
 u==="number"||!(1===u[0]))U=1;else{var
@@ -7522,14 +7537,14 @@ A==="number"||!(1===A[0]))W=1;else{var
 B=b[3],av=A[1];if(!B)return B;var
 O=B[1];if(1!==O[0])return 0;var
 aw=O[1],c=function(a){var
-b=l(av);return[13,a,0,rj(aw),b]}}if(W)return 0;break;case
+b=l(av);return[13,a,0,rl(aw),b]}}if(W)return 0;break;case
 15:var
 C=b[4],Y=0;if(typeof
 C==="number"||!(1===C[0]))Y=1;else{var
 D=b[3],ay=C[1];if(!D)return D;var
 P=D[1];if(1!==P[0])return 0;var
 az=P[1],c=function(a){var
-b=l(ay);return[13,a,1,rj(az),b]}}if(Y)return 0;break;case
+b=l(ay);return[13,a,1,rl(az),b]}}if(Y)return 0;break;case
 16:var
 E=b[4],Z=0;if(typeof
 E==="number"||!(1===E[0]))Z=1;else{var
@@ -7539,9 +7554,9 @@ aB=Q[1],c=function(a){var
 b=l(aA);return[17,a,d(l,aB),b]}}if(Z)return 0;break;default:return 0}var
 H=b[2],ab=H?[0,aY(H[1]),0]:ax(0,G);return d(c,ab)}function
 fj(e,d,c,b){var
-f=y(function(a){return is(e,d,c,a)},b),a=y(ri,b),h=a?[0,a[1],a[2]]:DI;return g(h,f)}function
+f=x(function(a){return it(e,d,c,a)},b),a=x(rk,b),h=a?[0,a[1],a[2]]:DM;return g(h,f)}function
 c_(a){return 11===a[1]?1:0}function
-cE(n,m,a){var
+cF(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
 c=a[4];if(typeof
@@ -7551,9 +7566,9 @@ l=0,d=a[4];if(typeof
 d!=="number"&&2===d[0]){var
 e=1;l=1}if(!l)var
 e=0;var
-f=cN(n,e);if(f){var
+f=cp(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=ae(DJ,h);return i?ae(h,m):i}var
+h=g[1],i=ae(DN,h);return i?ae(h,m):i}var
 j=1}else
 var
 j=f;return j;case
@@ -7562,14 +7577,14 @@ k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
 aZ(s,b,a){var
 d=a[2];if(d)var
-e=d[1],g=ae(DK,e),t=g?ae(e,b):g,c=t;else
+e=d[1],g=ae(DO,e),t=g?ae(e,b):g,c=t;else
 var
 c=1;var
 h=a[1];if(!(9<=h))switch(h){case
 2:var
 i=a[4];if(typeof
 i!=="number"&&1===i[0]){var
-j=a[3];return j?0===j[1][0]?c:cE(0,b,a):cE(0,b,a)}return cE(0,b,a);case
+j=a[3];return j?0===j[1][0]?c:cF(0,b,a):cF(0,b,a)}return cF(0,b,a);case
 6:var
 k=a[4];if(typeof
 k!=="number"&&0===k[0]){var
@@ -7580,23 +7595,23 @@ n=l[1];switch(n[0]){case
 o=m(f(n[1]),b);if(o){if(a[2])return 0;var
 p=1}else
 var
-p=o;return p;default:return cE(0,b,a)}}return cE(0,b,a)}return cE(0,b,a);case
+p=o;return p;default:return cF(0,b,a)}}return cF(0,b,a)}return cF(0,b,a);case
 8:var
 q=a[4];if(typeof
 q!=="number"&&1===q[0]){var
-r=a[3];return r?0===r[1][0]?c?m(b,s):c:cE(0,b,a):cE(0,b,a)}return cE(0,b,a)}return cE(0,b,a)}function
-aN(c,b,a){return 11===a[1]?typeof
+r=a[3];return r?0===r[1][0]?c?m(b,s):c:cF(0,b,a):cF(0,b,a)}return cF(0,b,a)}return cF(0,b,a)}function
+aP(c,b,a){return 11===a[1]?typeof
 a[4]==="number"?a[2]?aZ(c,b,a):a[3]?aZ(c,b,a):1:aZ(c,b,a):aZ(c,b,a)}function
-rk(g,b,c,a){var
+rm(g,b,c,a){var
 h=a[2];if(h)var
-i=h[1],j=ae(DM,i),G=j?ae(i,c):j,d=G;else
+i=h[1],j=ae(DQ,i),G=j?ae(i,c):j,d=G;else
 var
 d=1;switch(a[1]){case
 1:if(a[3])return aZ(as(b),c,a);if(d){var
 F=0,k=a[4];if(typeof
 k!=="number"&&2===k[0]){var
 l=1;F=1}if(!F)var
-l=0;return cN(g,l)}return d;case
+l=0;return cp(g,l)}return d;case
 4:var
 n=a[4];if(typeof
 n!=="number"&&0===n[0])return a[3]?aZ(as(b),c,a):d;return aZ(as(b),c,a);case
@@ -7623,7 +7638,7 @@ v=u[1],w=m(c,as(b));return w?typeof
 b==="number"?a[2]?0:0===v[0]?1:0:a[2]?0:3===v[0]?1:0:w}return aZ(as(b),c,a)}return aZ(as(b),c,a);case
 13:var
 x=a[4];if(typeof
-x!=="number"&&1===x[0])return a[3]?aZ(as(b),c,a):d?L(g):d;return aZ(as(b),c,a);case
+x!=="number"&&1===x[0])return a[3]?aZ(as(b),c,a):d?J(g):d;return aZ(as(b),c,a);case
 16:var
 y=a[4];if(typeof
 y!=="number"&&1===y[0]){var
@@ -7634,26 +7649,26 @@ D=typeof
 b==="number"?1:0,E=D?1:D;else
 var
 E=C;return E}return aZ(as(b),c,a)}return aZ(as(b),c,a)}return aZ(as(b),c,a);default:return aZ(as(b),c,a)}}function
-dH(a){switch(a[0]){case
+dI(a){switch(a[0]){case
 0:return[0,l([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,dH(a[1])];case
+2:return[2,dI(a[1])];case
 3:var
-b=dH(a[2]),c=dH(a[3]);switch(a[1]){case
+b=dI(a[2]),c=dI(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,dH(a[1]),d];default:return[8,dH(a[1])]}}function
-lf(i,h,g,b,e,c,a){var
+d=a[2];return[7,dI(a[1]),d];default:return[8,dI(a[1])]}}function
+lh(i,h,g,b,e,c,a){var
 j=ag(c_,a),k=fj(0,f(b),0,a),m=M(e,c),n=d(function(a){var
-b=l(a[2]);return[0,l(a[1]),b]},m),o=d(function(a){return 0===a[0]?[0,d(dH,a[1])]:[1,dH(a[1])]},b),p=d(function(a){var
-b=dH(a[2]);return[0,a[1],b]},g);return[0,[0,i,d(function(a){var
+b=l(a[2]);return[0,l(a[1]),b]},m),o=d(function(a){return 0===a[0]?[0,d(dI,a[1])]:[1,dI(a[1])]},b),p=d(function(a){var
+b=dI(a[2]);return[0,a[1],b]},g);return[0,[0,i,d(function(a){var
 b=ci(a[2]);return[0,a[1],b]},h),p,o],n,k,j]}function
-lg(c){function
+li(c){function
 b(d){var
 b=[0,e,a];return q(d,c,[0,b,b])}var
-d=b(DN),f=b(DO);return[0,b(0),f,d]}function
+d=b(DR),f=b(DS);return[0,b(0),f,d]}function
 eo(a){function
 b(a){var
 b=l(a[2]);return[0,l(a[1]),b]}switch(a[0]){case
@@ -7662,21 +7677,21 @@ b=l(a[2]);return[0,l(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,l(a[1])];default:var
 e=l(a[2]);return[3,l(a[1]),e]}}function
-rl(a){if(0===a[0]){var
-b=M(a[1],a[2]);return[0,lg(d(function(a){var
-b=l(a[2]);return[0,l(a[1]),b]},b))]}return rg([1,a[1],a[2],a[3],a[4],a[5]])}function
-rm(j,b,i,h,g,e,a){function
-c(a){return lg(d(ci,a))}var
-k=ag(c_,a),m=fj(0,f(b),e,a),n=eo(g),o=rl(h),p=l(i);return[0,j,d(function(a){var
+rn(a){if(0===a[0]){var
+b=M(a[1],a[2]);return[0,li(d(function(a){var
+b=l(a[2]);return[0,l(a[1]),b]},b))]}return ri([1,a[1],a[2],a[3],a[4],a[5]])}function
+ro(j,b,i,h,g,e,a){function
+c(a){return li(d(ci,a))}var
+k=ag(c_,a),m=fj(0,f(b),e,a),n=eo(g),o=rn(h),p=l(i);return[0,j,d(function(a){var
 b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,k]}function
 ep(a){return ag(function(a){return 3===a[0]?1:0},a)}function
-lh(j,b,g,i,h,c){var
-k=ag(c_,c),m=f(b),n=fj(ep(b),m,0,c),o=x(eo,h),p=rl(i),q=g?l(g[1]):[0,a,a];return[0,j,d(function(b){function
-c(a){return lg(d(ci,a))}switch(b[0]){case
+lj(j,b,g,i,h,c){var
+k=ag(c_,c),m=f(b),n=fj(ep(b),m,0,c),o=y(eo,h),p=rn(i),q=g?l(g[1]):[0,a,a];return[0,j,d(function(b){function
+c(a){return li(d(ci,a))}switch(b[0]){case
 0:var
 k=b[5],l=ci(b[4]),m=c(b[3]),n=c(b[2]);return[0,[0,[0,c(b[1]),n,m,l,k]]];case
 1:var
-o=x(c,b[3]),p=c(b[2]);return[0,[1,c(b[1]),p,o]];case
+o=y(c,b[3]),p=c(b[2]);return[0,[1,c(b[1]),p,o]];case
 2:return[0,[2,c(b[1])]];default:var
 f=b[1];if(f)var
 g=c(f);else
@@ -7686,17 +7701,17 @@ q=b[7],r=ci(b[6]),s=ci(b[5]),t=c(b[4]),u=c(b[3]);return[1,[0,g,c(b[2]),u,t,s,r,q
 cj(c){var
 a=c[1];if(13!==a){var
 b=16<=a?1:0;if(!b)return b}return 1}function
-li(a){function
+lk(a){function
 b(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}switch(a[0]){case
 0:var
 c=a[5],d=a[4],e=b(a[3]),f=b(a[2]);return[0,b(a[1]),f,e,d,c];case
 1:var
-g=x(b,a[3]),h=b(a[2]);return[1,b(a[1]),h,g];default:return[2,b(a[1])]}}function
-lj(a){if(0===a[0]){var
+g=y(b,a[3]),h=b(a[2]);return[1,b(a[1]),h,g];default:return[2,b(a[1])]}}function
+ll(a){if(0===a[0]){var
 b=a[2],c=a[1];return[0,[0,c[1],[0,c[2],[0,c[3],0]]],[0,b[1],[0,b[2],[0,b[3],0]]]]}return[1,a[1],a[2],a[3],a[4],a[5]]}function
-rn(a){return a[1]?0:1}function
-ro(l){var
-b=aP(rn,l);if(b){var
+rp(a){return a[1]?0:1}function
+rq(l){var
+b=aN(rp,l);if(b){var
 d=b[1];if(d[2])return 0;if(d[3])return 0;var
 c=d[4],a=b[2];if(typeof
 c!=="number")switch(c[0]){case
@@ -7717,46 +7732,46 @@ k=a;return k}var
 i=0}else
 var
 i=b;return i}function
-rp(a){var
-c=rn(a);if(c)return c;if(1===a[1]){var
+rr(a){var
+c=rp(a);if(c)return c;if(1===a[1]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return 1;return 0}return 0}function
-it(i,h,b){function
+iu(i,h,b){function
 c(b,a){return[3,1,b,a]}function
 a(b,a){return[3,3,b,a]}function
 d(b,a){return[3,2,b,a]}function
 e(b,a){return[3,0,b,a]}var
-f=c(iu,a(iu,b)),j=a(f,lk),k=i?f:a(c(b,iu),lk);function
-g(b){return a(b,[5,e(iu,d(lk,d(b,b)))])}var
+f=c(iv,a(iv,b)),j=a(f,lm),k=i?f:a(c(b,iv),lm);function
+g(b){return a(b,[5,e(iv,d(lm,d(b,b)))])}var
 l=g(k);return a(h,e(g(j),l))}function
-iv(f,e,d){function
+iw(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,ll,a(ll,d)],rq),g=a(c,[5,[3,0,ll,b(rq,b(c,c))]]);return[2,b(it(f,e,d),g)]}function
-lm(e,g,a){function
+c=a([3,1,ln,a(ln,d)],rs),g=a(c,[5,[3,0,ln,b(rs,b(c,c))]]);return[2,b(iu(f,e,d),g)]}function
+lo(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
-h=f(iw,b(iw,a)),d=e?h:b(f(a,iw),rr),i=b(d,[5,[3,0,iw,c(rr,c(d,d))]]);return c(it(e,g,a),i)}function
-rs(c,g,b,a){function
+h=f(ix,b(ix,a)),d=e?h:b(f(a,ix),rt),i=b(d,[5,[3,0,ix,c(rt,c(d,d))]]);return c(iu(e,g,a),i)}function
+ru(c,g,b,a){function
 e(b,a){return d(function(c){var
-d=m(b,c)?a:DP;return[0,d]},DR)}return d(function(d){var
-j=[0,it(c,b,a)],i=1,k=e(d,[2,g]);function
+d=m(b,c)?a:DT;return[0,d]},DV)}return d(function(d){var
+j=[0,iu(c,b,a)],i=1,k=e(d,[2,g]);function
 f(b,a){return[3,1,b,a]}var
-h=it(c,b,a),l=e(d,f(f(iv(c,b,a),g),h));return[0,e(d,DQ),l,k,j,i]},DS)}function
-rt(c,b,a){var
-d=[0,lm(c,b,a),0],e=[0,lm(c,b,a),d],f=[0,lm(c,b,a),e],g=[0,iv(c,b,a),0],h=[0,iv(c,b,a),g];return[0,[0,iv(c,b,a),h],f]}function
-ru(o,d,b){if(d)if(b){var
+h=iu(c,b,a),l=e(d,f(f(iw(c,b,a),g),h));return[0,e(d,DU),l,k,j,i]},DW)}function
+rv(c,b,a){var
+d=[0,lo(c,b,a),0],e=[0,lo(c,b,a),d],f=[0,lo(c,b,a),e],g=[0,iw(c,b,a),0],h=[0,iw(c,b,a),g];return[0,[0,iw(c,b,a),h],f]}function
+rw(o,d,b){if(d)if(b){var
 g=d[1],h=b[1],j=cV(l(g[2][1]));if(j){var
 k=j[1],m=cV(l(g[2][2]));if(m)var
 p=m[1],n=function(b){function
 d(a){return c(2,a)}var
-e=[0,b,g0(h[2],d,a)];return dQ(k,bb(dR(p,k),e))},q=n(G(h[1],a)),f=[0,n(h[1]),q];else
+e=[0,b,g1(h[2],d,a)];return dR(k,bb(dS(p,k),e))},q=n(G(h[1],a)),f=[0,n(h[1]),q];else
 var
 f=[0,[0,e,a],[0,e,a]]}else
 var
 f=[0,[0,e,a],[0,e,a]];var
-r=ru([0,o],d[2],b[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+r=rw([0,o],d[2],b[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 i=b;else
 var
@@ -7765,21 +7780,21 @@ aD(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=mK(function(a){return aM(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+e=c[1],d=mM(function(a){return aM(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
 2:return[2,aD(b,a[1])];case
 3:var
 f=aD(b,a[3]),g=aD(b,a[2]);return[3,a[1],g,f];case
 4:var
 h=a[2];return[4,aD(b,a[1]),h];default:return[5,aD(b,a[1])]}}function
-rv(b,a){if(0===a[0])return[0,aD(b,a[1])];var
+rx(b,a){if(0===a[0])return[0,aD(b,a[1])];var
 c=aD(b,a[2]);return[1,aD(b,a[1]),c]}function
-ln(b,a){var
+lp(b,a){var
 c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]}function
-lo(c,a){if(c)if(a){var
+lq(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=lo(h,g);if(e){var
-i=e[1],f=lo(h,i[2]);if(f)var
+e=lq(h,g);if(e){var
+i=e[1],f=lq(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -7791,57 +7806,57 @@ var
 d=a;else
 var
 d=c;return d}function
-lp(g,f,b){if(b){var
-d=b[1],h=b[2];if(f)return[0,d,lp(g,f[1],h)];var
+lr(g,f,b){if(b){var
+d=b[1],h=b[2];if(f)return[0,d,lr(g,f[1],h)];var
 j=[0,d[2]],k=g?a:e,l=d[1],i=[0,[0,G(E(c(2,a),l),k),j],h]}else
 var
 i=b;return i}function
-DT(a){if(typeof
+DX(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-DU(a){if(typeof
+DY(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-ix(d,b){if(0===b[0]){var
-f=[0,a,c(2,a)],g=ix(d,b[3]);return bb(dQ(ix(d,b[2]),g),f)}return h(d,b[1])?[0,a,a]:[0,e,a]}function
-rw(a){return 0===a[0]?e4(a[1][4]):0}function
-rx(a){switch(a[0]){case
+iy(d,b){if(0===b[0]){var
+f=[0,a,c(2,a)],g=iy(d,b[3]);return bb(dR(iy(d,b[2]),g),f)}return h(d,b[1])?[0,a,a]:[0,e,a]}function
+ry(a){return 0===a[0]?e4(a[1][4]):0}function
+rz(a){switch(a[0]){case
 0:var
 b=a[1],c=bk(b[3]);return g(bk(b[2]),c);case
 1:var
 d=bk(a[2]);return g(bk(a[1]),d);default:return 0}}function
-iy(a){switch(a[0]){case
-0:return bX(bk(a[1][1]));case
+iz(a){switch(a[0]){case
+0:return bY(bk(a[1][1]));case
 1:var
-b=a[3];return b?bX(bk(b[1])):e;default:return bX(bk(a[1]))}}function
-iz(c){var
-b=y(rw,c),d=b?[0,b[1],b[2]]:y(rx,c);return G(a,bX(d))}function
-ry(d,c){if(d){if(c){var
-a=c[1],e=d[1],f=ry(d[2],c[2]);if(f){var
+b=a[3];return b?bY(bk(b[1])):e;default:return bY(bk(a[1]))}}function
+iA(c){var
+b=x(ry,c),d=b?[0,b[1],b[2]]:x(rz,c);return G(a,bY(d))}function
+rA(d,c){if(d){if(c){var
+a=c[1],e=d[1],f=rA(d[2],c[2]);if(f){var
 i=f[1],j=i[1],g=j[2],k=j[1],l=i[2];if(45===a)var
-b=DV;else
-if(43===a)var
-b=DW;else
-if(48===a)var
-b=DX;else
-if(60===a)var
-b=DY;else
-if(62===a)var
 b=DZ;else
+if(43===a)var
+b=D0;else
+if(48===a)var
+b=D1;else
+if(60===a)var
+b=D2;else
+if(62===a)var
+b=D3;else
 var
-h=61===a?1:0,q=h?D0:h,b=q;if(b){var
+h=61===a?1:0,q=h?D4:h,b=q;if(b){var
 m=b[1],r=m[2]?[0,e,g]:g;return[0,[0,[0,[0,[0,e,m[1]],k],r],l]]}var
 n=49===a?1:0,s=n?[0,[0,[0,k,g],[0,e,l]]]:n,o=s}else
 var
 o=f;var
 p=o}else
 var
-p=c;return p}return c?0:D1}function
+p=c;return p}return c?0:D5}function
 c$(b,c,a){switch(a[0]){case
 0:var
-g=a[1];if(aM(g,D2))return D3;if(aM(g,D4))return D5;if(aM(g,D6))return D7;if(aM(g,D8))return D9;if(aM(g,D_))return D$;var
-u=aM(g,Ea),P=u?Eb:u;return P;case
+g=a[1];if(aM(g,D6))return D7;if(aM(g,D8))return D9;if(aM(g,D_))return D$;if(aM(g,Ea))return Eb;if(aM(g,Ec))return Ed;var
+u=aM(g,Ee),P=u?Ef:u;return P;case
 1:var
-h=a[3],i=a[2],j=a[1];if(aM(j,Ec))return[0,[0,h,i]];if(aM(j,Ed))return[0,[1,h,i]];if(aM(j,Ee))return[0,[2,h,i]];var
-v=aM(j,Ef),Q=v?[0,[8,h,i]]:v;return Q;case
+h=a[3],i=a[2],j=a[1];if(aM(j,Eg))return[0,[0,h,i]];if(aM(j,Eh))return[0,[1,h,i]];if(aM(j,Ei))return[0,[2,h,i]];var
+v=aM(j,Ej),Q=v?[0,[8,h,i]]:v;return Q;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3],a[4]]];case
@@ -7850,10 +7865,10 @@ n=c$(b,c,a[1]),R=n?[0,[5,n[1],a[2],a[3]]]:n;return R;case
 6:var
 o=c$(b,c,a[1]),S=o?[0,[7,o[1],a[2],a[3]]]:o;return S;case
 7:var
-T=c$(b,c,a[1]);return x(function(a){return[6,a]},T);case
+T=c$(b,c,a[1]);return y(function(a){return[6,a]},T);case
 8:if(b){var
-w=a[3],y=a[2],p=c$(b,c,a[1]);if(p){var
-z=p[1],q=ry(b,jg(jf(aI(y),function(a){return be(y,a)})));if(q){var
+w=a[3],x=a[2],p=c$(b,c,a[1]);if(p){var
+z=p[1],q=rA(b,jh(jg(aI(x),function(a){return be(x,a)})));if(q){var
 A=q[1],B=A[1],C=B[2],D=B[1],E=A[2];if(E)return[0,[11,c,E,[10,z,D,C,w]]];var
 F=[0,[10,z,D,C,w]]}else
 var
@@ -7865,15 +7880,15 @@ I=G}else
 var
 I=b;return I;case
 9:var
-J=function(a){if(a){var
+K=function(a){if(a){var
 f=a[1],d=c$(b,c,f[2]);if(d)var
-e=J(a[2]),h=e?[0,[0,[0,f[1],d[1]],e[1]]]:e,g=h;else
+e=K(a[2]),h=e?[0,[0,[0,f[1],d[1]],e[1]]]:e,g=h;else
 var
-g=d;return g}return Eg},U=J(a[1]);return x(function(a){return[12,a]},U);case
+g=d;return g}return Ek},U=K(a[1]);return y(function(a){return[12,a]},U);case
 10:var
-K=a[3],t=k(function(a){var
-c=f(b);return m(f(a),c)},K),l=t?[0,d(function(a){var
-c=M(b,a);return aP(function(a){return L(H(a[2],e))},c)},K)]:t;if(l){var
+L=a[3],t=k(function(a){var
+c=f(b);return m(f(a),c)},L),l=t?[0,d(function(a){var
+c=M(b,a);return aN(function(a){return J(H(a[2],e))},c)},L)]:t;if(l){var
 r=c$(b,c,a[4]);if(r)var
 s=c$(b,c,a[5]),V=s?[0,[13,a[2],a[1],l[1],r[1],s[1]]]:s,N=V;else
 var
@@ -7881,22 +7896,22 @@ N=r;var
 O=N}else
 var
 O=l;return O;default:var
-W=a[3],X=a[2],Y=c$(b,c,a[1]);return x(function(a){return[14,a,W,X]},Y)}}function
-rz(e,d,a){if(a){var
+W=a[3],X=a[2],Y=c$(b,c,a[1]);return y(function(a){return[14,a,W,X]},Y)}}function
+rB(e,d,a){if(a){var
 f=a[1],b=c$(e,d,f[2]);if(b)var
-c=rz(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
+c=rB(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
 var
-g=b;return g}return Eh}function
+g=b;return g}return El}function
 eq(b,g,f,e,d,a){if(d)if(a){var
 c=a[1];if(c[3])return 0;if(c[4])return 0;var
-n=c[2],o=a[2],p=d[1],h=rz(f,e,c[1]);if(h){var
+n=c[2],o=a[2],p=d[1],h=rB(f,e,c[1]);if(h){var
 i=h[1];if(n){var
 j=eq(b,g,f,e,p,o);if(j){var
 q=j[1],k=eq(b,g,f,e,p,q[2]);if(k){var
-r=k[1],s=r[1],t=q[1],l=n[1],z=r[2];if(aE(l,b))var
+r=k[1],s=r[1],t=q[1],l=n[1],z=r[2];if(aF(l,b))var
 u=[0,[1,i,l,t,s]];else
 var
-y=F(g,dO(l,b)),u=x(function(a){return[2,i,a,t,s]},y);return x(function(a){return[0,a,z]},u)}var
+x=F(g,dP(l,b)),u=y(function(a){return[2,i,a,t,s]},x);return y(function(a){return[0,a,z]},u)}var
 v=k}else
 var
 v=j;return v}var
@@ -7908,67 +7923,67 @@ var
 m=a;else
 var
 m=d;return m}function
-lq(i,h,g,e,d,a){if(d){if(a){var
+ls(i,h,g,e,d,a){if(d){if(a){var
 b=eq(i,h,g,e,f(a),a);if(b)var
-j=b[1],c=lq(i,h,g,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
+j=b[1],c=ls(i,h,g,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
 var
-k=b;return k}return Ei}return a?0:Ej}function
-rA(a){if(typeof
-a==="number")return 0===a?Ek:El;else
+k=b;return k}return Em}return a?0:En}function
+rC(a){if(typeof
+a==="number")return 0===a?Eo:Ep;else
 switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return[0,[1,a[1],a[2]]];default:return 0}}function
-lr(e,d,a){if(d)if(a){var
+lt(e,d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 j=b[4],c=b[3],k=b[2],l=a[2],m=d[1];if(k){if(c)return 0;if(j)return 0;var
-f=k[1],g=lr(e,m,l);if(g){var
-n=g[1],o=n[1],h=lr(e,m,n[2]);if(h){var
-p=h[1],q=p[2],r=p[1];if(aE(f,Em))return[0,[0,[1,f,o,r],q]];var
-t=F(e,dO(f,En));return x(function(a){return[0,[2,a,o,r],q]},t)}var
+f=k[1],g=lt(e,m,l);if(g){var
+n=g[1],o=n[1],h=lt(e,m,n[2]);if(h){var
+p=h[1],q=p[2],r=p[1];if(aF(f,Eq))return[0,[0,[1,f,o,r],q]];var
+t=F(e,dP(f,Er));return y(function(a){return[0,[2,a,o,r],q]},t)}var
 s=h}else
 var
 s=g;return s}if(c){var
-u=rA(c[1]);return x(function(a){return[0,[0,j,a],l]},u)}var
+u=rC(c[1]);return y(function(a){return[0,[0,j,a],l]},u)}var
 i=c}else
 var
 i=a;else
 var
 i=d;return i}function
-dI(b,a){return 0===b[0]?[0,l(b[1]),a]:a?[0,a[1],a[2]]:[0,l(b[1]),0]}function
+dJ(b,a){return 0===b[0]?[0,l(b[1]),a]:a?[0,a[1],a[2]]:[0,l(b[1]),0]}function
 er(a,e){var
-b=dI(a[1],e),c=dI(a[2],b[2]),d=dI(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-rB(d,c){if(d){var
+b=dJ(a[1],e),c=dJ(a[2],b[2]),d=dJ(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+rD(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=er(a[1],c),f=er(a[2],e[2]),g=er(a[3],f[2]),h=dI(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=er(a[1],c),f=er(a[2],e[2]),g=er(a[3],f[2]),h=dJ(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
 i=a[3],j=er(a[1],c),k=j[1],l=er(a[2],j[2]),m=l[2],n=l[1];if(i)var
 o=er(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
 p=er(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=rB(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-gw(t,g){var
+q=rD(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+gx(t,g){var
 u=t[3];if(typeof
-g==="number")return 0===g?Er:Es;else
+g==="number")return 0===g?Ev:Ew;else
 switch(g[0]){case
 0:var
 v=g[2],h=g[1],B=F(u,h);if(B){var
 ab=0,C=B[1];if(typeof
 C==="number"||!(13===C[0]))ab=1;else
 var
-y=t[1],A=iz(y),b=d(function(b){var
-g=f(y);if(m(f(b),g)){var
-h=M(y,b);return d(function(b){var
-d=b[2],f=D(e,A),g=2===b[1][0]?1:0;return cN(g,f)?E(d,cp(c(2,a),cL(A))):d},h)}return b},v);if(ab)var
+x=t[1],A=iA(x),b=d(function(b){var
+g=f(x);if(m(f(b),g)){var
+h=M(x,b);return d(function(b){var
+d=b[2],f=D(e,A),g=2===b[1][0]?1:0;return cp(g,f)?E(d,cq(c(2,a),cM(A))):d},h)}return b},v);if(ab)var
 b=v}else
 var
 b=v;var
-ac=F(u,h),ad=t[1],w=x(function(b){if(typeof
+ac=F(u,h),ad=t[1],w=y(function(b){if(typeof
 b!=="number")switch(b[0]){case
-5:return Ep;case
+5:return Et;case
 12:var
-a=F(ad,b[1]);if(a){if(2===a[1][0])return Eq;var
+a=F(ad,b[1]);if(a){if(2===a[1][0])return Eu;var
 c=0}else
 var
 c=a;return c;case
@@ -7977,7 +7992,7 @@ c=a;return c;case
 4:case
 6:case
 7:case
-11:return 0}return Eo},ac);if(w){var
+11:return 0}return Es},ac);if(w){var
 G=w[1];if(G){var
 H=G[1];if(H){if(H[1])return 0;if(b){var
 i=b[1];if(i){var
@@ -8036,28 +8051,28 @@ $!=="number"&&1===$[0])return[0,[1,_,g[2]]];var
 aa=0}else
 var
 aa=z;return aa;default:return 0}}function
-bw(a,b){if(a){var
-c=dI(a[1],b),d=bw(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-aR(c){function
+bv(a,b){if(a){var
+c=dJ(a[1],b),d=bv(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+aS(c){function
 b(b){return q(b,c,[0,e,a])}var
-d=b(Et),f=b(Eu);return[0,b(0),f,d]}function
-rC(a,b){if(a){var
-c=a[1],d=bw(c[1],b),e=bw(c[2],d[2]),f=rC(a[2],e[2]),g=f[2],h=f[1],i=aR(e[1]);return[0,[0,[0,aR(d[1]),i],h],g]}return[0,0,b]}function
-ls(f,d){if(f){var
+d=b(Ex),f=b(Ey);return[0,b(0),f,d]}function
+rE(a,b){if(a){var
+c=a[1],d=bv(c[1],b),e=bv(c[2],d[2]),f=rE(a[2],e[2]),g=f[2],h=f[1],i=aS(e[1]);return[0,[0,[0,aS(d[1]),i],h],g]}return[0,0,b]}function
+lu(f,d){if(f){var
 b=f[1];switch(b[0]){case
 0:var
-g=bw(b[1],d),h=bw(b[2],g[2]),i=bw(b[3],h[2]),j=dI(b[4],i[2]),A=j[2],B=b[5],C=j[1],D=aR(i[1]),E=aR(h[1]),c=[0,[0,[0,aR(g[1]),E,D,C,B]],A];break;case
+g=bv(b[1],d),h=bv(b[2],g[2]),i=bv(b[3],h[2]),j=dJ(b[4],i[2]),A=j[2],B=b[5],C=j[1],D=aS(i[1]),E=aS(h[1]),c=[0,[0,[0,aS(g[1]),E,D,C,B]],A];break;case
 1:var
-k=b[3],l=bw(b[1],d),m=l[1],n=bw(b[2],l[2]),o=n[2],p=n[1];if(k)var
-q=bw(k[1],o),F=q[2],G=[0,aR(q[1])],H=aR(p),c=[0,[0,[1,aR(m),H,G]],F];else
+k=b[3],l=bv(b[1],d),m=l[1],n=bv(b[2],l[2]),o=n[2],p=n[1];if(k)var
+q=bv(k[1],o),F=q[2],G=[0,aS(q[1])],H=aS(p),c=[0,[0,[1,aS(m),H,G]],F];else
 var
-I=aR(p),c=[0,[0,[1,aR(m),I,0]],o];break;case
+I=aS(p),c=[0,[0,[1,aS(m),I,0]],o];break;case
 2:var
-r=bw(b[1],d),J=r[2],c=[0,[0,[2,aR(r[1])]],J];break;default:var
-s=b[1],t=bw(s,d),u=bw(b[2],t[2]),v=bw(b[3],u[2]),w=bw(b[4],v[2]),x=dI(b[5],w[2]),y=dI(b[6],x[2]),K=s?aR(t[1]):[0,[0,e,a],[0,e,a],[0,a,a]],L=y[2],M=b[7],N=y[1],O=x[1],P=aR(w[1]),Q=aR(v[1]),c=[0,[1,[0,K,aR(u[1]),Q,P,O,N,M]],L]}var
-z=ls(f[2],c[2]);return[0,[0,c[1],z[1]],z[2]]}return[0,0,d]}function
-dJ(a){return ng(j,a)}function
-Ev(b){if(typeof
+r=bv(b[1],d),J=r[2],c=[0,[0,[2,aS(r[1])]],J];break;default:var
+s=b[1],t=bv(s,d),u=bv(b[2],t[2]),v=bv(b[3],u[2]),w=bv(b[4],v[2]),x=dJ(b[5],w[2]),y=dJ(b[6],x[2]),K=s?aS(t[1]):[0,[0,e,a],[0,e,a],[0,a,a]],L=y[2],M=b[7],N=y[1],O=x[1],P=aS(w[1]),Q=aS(v[1]),c=[0,[1,[0,K,aS(u[1]),Q,P,O,N,M]],L]}var
+z=lu(f[2],c[2]);return[0,[0,c[1],z[1]],z[2]]}return[0,0,d]}function
+dK(a){return ni(j,a)}function
+Ez(b){if(typeof
 b==="number")return 1;else
 switch(b[0]){case
 5:return i(j,1,[3,b[1],[0,a,a]]);case
@@ -8074,11 +8089,11 @@ h=i(j,0,b[1]);return h?i(j,1,b[2]):h;case
 15:var
 l=[0,b[2],b[1]],m=1;return k(function(a){return i(j,m,a)},l);case
 2:case
-3:return dJ(b[2]);case
+3:return dK(b[2]);case
 4:case
 13:var
 c=i(j,1,b[2]);return c?i(j,1,b[3]):c;default:return i(j,1,b[1])}}function
-lt(b){if(typeof
+lv(b){if(typeof
 b==="number")return 1;else
 switch(b[0]){case
 4:var
@@ -8090,25 +8105,25 @@ B=[0,b[2],b[1]],C=1;return k(function(a){return i(j,C,a)},B);case
 11:var
 m=b[2],n=i(j,1,m);return n?i(j,0,[3,[0,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a))))))))),a],m]):n;case
 13:var
-o=b[4],p=pX(b[3]),q=p?i(j,1,o):p;return q?i(j,0,[3,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a],o]):q;case
+o=b[4],p=pZ(b[3]),q=p?i(j,1,o):p;return q?i(j,0,[3,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a],o]):q;case
 14:return i(j,0,b[3]);case
 15:var
 r=i(j,0,b[2]),t=r?i(j,0,b[3]):r;return t?i(j,1,b[4]):t;case
 16:var
 u=b[3],v=i(j,0,b[1]),w=v?i(j,1,b[2]):v,x=w?i(j,0,u):w;return x?i(j,1,[3,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a],u]):x;case
 17:var
-y=b[2],z=k(dJ,y),A=z?ag(function(a){return i(j,1,[4,a,a])},y):z;return A?i(j,1,b[3]):A;case
+y=b[2],z=k(dK,y),A=z?ag(function(a){return i(j,1,[4,a,a])},y):z;return A?i(j,1,b[3]):A;case
 2:case
-3:return dJ(b[2]);case
+3:return dK(b[2]);case
 6:case
 7:case
 9:var
 l=i(j,1,b[2]);return l?i(j,1,b[3]):l;default:return i(j,1,b[1])}}function
-iA(d){var
+iB(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=L(ag(function(d){return function(a){var
-h=k$(a[1]),e=aM(k$(d[1]),h);if(e)var
-i=la(a[4]),b=aM(la(d[4]),i);else
+b=a[2],e=a[1],c=J(ag(function(d){return function(a){var
+h=lb(a[1]),e=aM(lb(d[1]),h);if(e)var
+i=lc(a[4]),b=aM(lc(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
@@ -8117,125 +8132,125 @@ g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-gx(a){if(0===a[0])return dJ(l(a[1]));var
-b=a[2],c=a[1];if(!dV(l(c))&&!dV(l(b))){var
+gy(a){if(0===a[0])return dK(l(a[1]));var
+b=a[2],c=a[1];if(!dW(l(c))&&!dW(l(b))){var
 e=l(c);return i(j,1,[3,l(b),e])}var
 d=l(b);return bI(j,l(c),d)}function
 es(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-rD(a){switch(a[0]){case
+rF(a){switch(a[0]){case
 0:var
 c=[0,a[4],0],d=g(es(a[3]),c),e=g(es(a[2]),d);return g(es(a[1]),e);case
 1:var
 b=a[3],f=b?es(b[1]):b,h=g(es(a[2]),f);return g(es(a[1]),h);default:return es(a[1])}}function
-rE(s,a,m){if(ag(function(a){return 9===a[1]?1:0},m)){var
-b=ae(f(a),Ey),c=b?k(function(a){if(0===a[0]){var
+rG(s,a,m){if(ag(function(a){return 9===a[1]?1:0},m)){var
+b=ae(f(a),EC),c=b?k(function(a){if(0===a[0]){var
 d=a[5],e=i(j,1,l(a[2])),f=e?i(j,0,l(a[3])):e,m=f?i(j,0,l(a[4])):f,c=0;if(m)if(d)var
-p=ch(d[1]),b=k(function(a){return dJ(l(a))},p);else{var
+p=ch(d[1]),b=k(function(a){return dK(l(a))},p);else{var
 n=1;c=1}else{var
 n=m;c=1}if(c)var
 b=n}else{var
 o=i(j,1,l(a[4]));if(o)var
-q=ch(a[3]),r=g(ch(a[2]),q),b=k(function(a){return dJ(l(a))},r);else
+q=ch(a[3]),r=g(ch(a[2]),q),b=k(function(a){return dK(l(a))},r);else
 var
 b=o}return b?h(s,a):b},a):b;if(c)var
-d=iq(0,a),n=d?1:d,e=n;else
+d=ir(0,a),n=d?1:d,e=n;else
 var
 e=c;return e}return a?0:1}function
-rF(a){return a?Ez:EA}function
-iB(a){switch(a){case
-0:return EB;case
-1:return EC;default:return 0}}function
-dK(b){var
+rH(a){return a?ED:EE}function
+iC(a){switch(a){case
+0:return EF;case
+1:return EG;default:return 0}}function
+dL(b){var
 f=b[1],d=i(j,1,[2,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a],f]),e=d?bI(j,b[1],b[2]):d;if(e){var
 g=b[2];return i(j,1,[3,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a],g])}return e}function
 fk(b){var
 d=bI(j,[0,e,a],b);return d?i(j,1,[3,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a],b]):d}function
-rG(c,b,a){if(0===a[0]){var
+rI(c,b,a){if(0===a[0]){var
 d=a[2],e=a[1],g=m(f(e),c),h=g?m(f(d),c):g;if(h){var
 o=M(e,d);return k(function(a){var
 b=l(a[2]);return bI(j,l(a[1]),b)},o)}return h}var
 n=b?i(j,1,l(a[3])):b;if(n){var
 p=l(a[5]);return bI(j,l(a[4]),p)}return n}function
-rH(a,e,F,E,t,s,g){function
+rJ(a,e,F,E,t,s,g){function
 u(b){var
-d=rF(a),c=m(f(b),d);return c?k(gx,b):c}var
+d=rH(a),c=m(f(b),d);return c?k(gy,b):c}var
 v=k(function(a){var
 b=u(a[1]);return b?u(a[2]):b},e);if(v)var
 G=f(e),o=ae(bM(a),G);else
 var
 o=v;var
-w=o?ae(f(e),ED):o,x=w?i(j,1,l(F)):w;if(x)var
-H=1===a?1:0,p=rG(iB(a),H,E);else
+w=o?ae(f(e),EH):o,x=w?i(j,1,l(F)):w;if(x)var
+H=1===a?1:0,p=rI(iC(a),H,E);else
 var
 p=x;if(p)if(a){var
 d=eo(t);switch(d[0]){case
 0:var
 h=0;break;case
 1:var
-A=dK(d[1]),B=A?dK(d[2]):A,h=B?dK(d[3]):B;break;case
+A=dL(d[1]),B=A?dL(d[2]):A,h=B?dL(d[3]):B;break;case
 2:var
 h=fk(d[1]);break;default:var
 C=fk(d[1]),h=C?fk(d[2]):C}var
 n=h}else
 var
-D=eo(t),J=0===D[0]?dK(D[1]):0,n=J;else
+D=eo(t),J=0===D[0]?dL(D[1]):0,n=J;else
 var
 n=p;if(n)var
-I=f(e),q=rE(function(a){if(0===a[0]){var
-b=a[1],c=ae(Ex,b),d=c?ae(b,I):c;if(d){if(a[5])return 0;var
+I=f(e),q=rG(function(a){if(0===a[0]){var
+b=a[1],c=ae(EB,b),d=c?ae(b,I):c;if(d){if(a[5])return 0;var
 e=1}else
 var
 e=d;return e}return 1},s,g);else
 var
 q=n;if(q)var
-b=f(e),c=bM(a),y=rF(a),r=k(function(a){var
+b=f(e),c=bM(a),y=rH(a),r=k(function(a){var
 e=a[2];if(e)var
-g=e[1],h=ae(DL,g),w=h?ae(g,b):h,d=w;else
+g=e[1],h=ae(DP,g),w=h?ae(g,b):h,d=w;else
 var
 d=1;switch(a[1]){case
 9:var
 i=a[4];if(typeof
-i!=="number"&&0===i[0])return a[2]?aN(c,b,a):a[3]?aN(c,b,a):1;return aN(c,b,a);case
+i!=="number"&&0===i[0])return a[2]?aP(c,b,a):a[3]?aP(c,b,a):1;return aP(c,b,a);case
 10:var
 j=a[4];if(typeof
 j!=="number"&&1===j[0]){var
-k=a[3];return k?2===k[1][0]?d:aN(c,b,a):aN(c,b,a)}return aN(c,b,a);case
+k=a[3];return k?2===k[1][0]?d:aP(c,b,a):aP(c,b,a)}return aP(c,b,a);case
 12:var
 l=a[4];if(typeof
-l!=="number"&&1===l[0]){if(a[2])return aN(c,b,a);var
-n=a[3];return n?3===n[1][0]?m(b,c):aN(c,b,a):aN(c,b,a)}return aN(c,b,a);case
+l!=="number"&&1===l[0]){if(a[2])return aP(c,b,a);var
+n=a[3];return n?3===n[1][0]?m(b,c):aP(c,b,a):aP(c,b,a)}return aP(c,b,a);case
 14:var
 o=a[4];if(typeof
 o!=="number"&&1===o[0]){var
 p=a[3];if(p){var
 q=p[1];if(1===q[0]){var
-r=m(f(q[1]),y),x=r?d:r;return x}return aN(c,b,a)}return aN(c,b,a)}return aN(c,b,a);case
+r=m(f(q[1]),y),x=r?d:r;return x}return aP(c,b,a)}return aP(c,b,a)}return aP(c,b,a);case
 15:var
 s=a[4];if(typeof
 s!=="number"&&1===s[0]){var
 t=a[3];if(t){var
 u=t[1];if(1===u[0]){var
-v=m(f(u[1]),y),z=v?d:v;return z}return aN(c,b,a)}return aN(c,b,a)}return aN(c,b,a);default:return aN(c,b,a)}},g);else
+v=m(f(u[1]),y),z=v?d:v;return z}return aP(c,b,a)}return aP(c,b,a)}return aP(c,b,a);default:return aP(c,b,a)}},g);else
 var
 r=q;var
-z=r?iA(g):r;return z?k(lt,fj(0,f(e),s,g)):z}function
-lu(a){switch(a[0]){case
+z=r?iB(g):r;return z?k(lv,fj(0,f(e),s,g)):z}function
+lw(a){switch(a[0]){case
 0:var
 c=g(a[3],[0,a[4],0]),d=g(a[2],c);return g(a[1],d);case
 1:var
 b=a[3],e=b?b[1]:b,f=g(a[2],e);return g(a[1],f);case
 2:return a[1];default:var
 h=g(a[4],[0,a[5],[0,a[6],0]]),i=g(a[3],h),j=g(a[2],i);return g(a[1],j)}}function
-iC(a,b,e,T,p,n){var
+iD(a,b,e,T,p,n){var
 q=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 c(a){var
-b=q?EE:EF;return m(f(a),b)}var
+b=q?EI:EJ;return m(f(a),b)}var
 h=ep(b),w=k(function(b){switch(b[0]){case
 0:var
-f=L(h),g=f?c(b[1]):f,i=g?c(b[2]):g;return i?c(b[3]):i;case
+f=J(h),g=f?c(b[1]):f,i=g?c(b[2]):g;return i?c(b[3]):i;case
 1:var
-d=b[3],j=L(h),k=j?c(b[1]):j,l=k?c(b[2]):k;if(l){var
+d=b[3],j=J(h),k=j?c(b[1]):j,l=k?c(b[2]):k;if(l){var
 m=typeof
 a==="number"?1:0;if(m){if(a)return d?0:1;if(d)return c(d[1]);var
 e=1}else
@@ -8244,7 +8259,7 @@ e=m}else
 var
 e=l;return e;case
 2:var
-n=L(h),o=n?c(b[1]):n;if(o){if(typeof
+n=J(h),o=n?c(b[1]):n;if(o){if(typeof
 a==="number"&&!a)return 1;var
 p=0}else
 var
@@ -8253,54 +8268,54 @@ r=b[1],s=q?r?0:1:c(r),t=s?c(b[2]):s,u=t?c(b[3]):t;return u?c(b[4]):u}},b);if(w)v
 U=f(b),r=ae(as(a),U);else
 var
 r=w;var
-z=r?ae(f(b),EG):r,A=z?k(gx,y(lu,b)):z;if(A){var
+z=r?ae(f(b),EK):r,A=z?k(gy,x(lw,b)):z;if(A){var
 S=0;if(typeof
 a==="number"&&!a){var
 B=1;S=1}if(!S)var
 B=0;var
-V=q?EH:EI,s=rG(V,B,T)}else
+V=q?EL:EM,s=rI(V,B,T)}else
 var
 s=A;if(s)if(typeof
 a==="number")if(e)var
 d=0;else
 var
-W=x(eo,p)?0:1,d=W;else
+W=y(eo,p)?0:1,d=W;else
 switch(a[1]){case
 0:if(e){var
-t=x(eo,p);if(t){var
+t=y(eo,p);if(t){var
 G=t[1];if(0===G[0])var
-H=i(j,1,l(e[1])),I=H?dK(G[1]):H;else
+H=i(j,1,l(e[1])),I=H?dL(G[1]):H;else
 var
 I=0;var
-J=I}else
+K=I}else
 var
-J=t;var
-d=J}else
+K=t;var
+d=K}else
 var
 d=e;break;case
 1:if(e){var
-u=e[1],v=x(eo,p);if(v){var
+u=e[1],v=y(eo,p);if(v){var
 g=v[1];switch(g[0]){case
 0:var
 o=0;break;case
 1:var
-M=i(j,1,l(u)),N=M?dK(g[1]):M,O=N?dK(g[2]):N,o=O?dK(g[3]):O;break;case
+M=i(j,1,l(u)),N=M?dL(g[1]):M,O=N?dL(g[2]):N,o=O?dL(g[3]):O;break;case
 2:var
 P=i(j,1,l(u)),o=P?fk(g[1]):P;break;default:var
 Q=i(j,1,l(u)),R=Q?fk(g[1]):Q,o=R?fk(g[2]):R}var
-K=o}else
+L=o}else
 var
-K=v;var
-d=K}else
+L=v;var
+d=L}else
 var
 d=e;break;default:var
 d=0}else
 var
 d=s;var
 C=d?k(function(c){var
-d=rk(h,a,f(b),c);if(d)var
+d=rm(h,a,f(b),c);if(d)var
 e=d;else{var
-g=c_(c);if(g)return aN(0,0,c);var
+g=c_(c);if(g)return aP(0,0,c);var
 e=g}return e},n):d,D=C?k(function(a){var
 e=a[1];if(4===e){var
 f=a[2];if(f)var
@@ -8314,37 +8329,37 @@ d=F(b,aY(h[1])),l=d?[0,d[1],0]:d,i=l;else
 var
 i=b;return k(function(a){switch(a[0]){case
 0:case
-3:return 1;default:return 0}},i)}return 1},n):C,E=D?iA(n):D;return E?k(lt,fj(h,f(b),0,n)):E}function
-EJ(a){switch(a[0]){case
-0:return hP(a[1][1]);case
+3:return 1;default:return 0}},i)}return 1},n):C,E=D?iB(n):D;return E?k(lv,fj(h,f(b),0,n)):E}function
+EN(a){switch(a[0]){case
+0:return hQ(a[1][1]);case
 1:var
-b=a[3];return b?hP(b[1]):1;default:return hP(a[1])}}function
-iD(a,l,b,d){var
-e=rE(function(g){if(0===g[0]){var
-c=g[1],d=ae(Ew,c);if(d){var
+b=a[3];return b?hQ(b[1]):1;default:return hQ(a[1])}}function
+iE(a,l,b,d){var
+e=rG(function(g){if(0===g[0]){var
+c=g[1],d=ae(EA,c);if(d){var
 b=F(a,aY(c));if(b){if(2===b[1][0])return 0;var
 e=1}else
 var
 e=b;var
 f=e}else
 var
-f=d;return f}return 1},l,b),g=e?k(EJ,d[1]):e,h=g?ae(EK,f(a)):g;if(h)var
-m=f(a),c=k(function(a){return DB(m,a)},b);else
+f=d;return f}return 1},l,b),g=e?k(EN,d[1]):e,h=g?ae(EO,f(a)):g;if(h)var
+m=f(a),c=k(function(a){return DF(m,a)},b);else
 var
 c=h;var
-i=c?iA(b):c,j=i?k(gx,y(rD,a)):i;return j?k(Ev,d[3]):j}function
-rI(n,l,a,j,i,b){var
+i=c?iB(b):c,j=i?k(gy,x(rF,a)):i;return j?k(Ez,d[3]):j}function
+rK(n,l,a,j,i,b){var
 c=f(n),o=f(i),d=m(f(j),o),e=d?k(function(b){if(12===b[1]){var
 o=0,e=b[4];if(typeof
 e!=="number"&&1===e[0]){if(b[2])var
-l=aN(c,f(a),b);else
+l=aP(c,f(a),b);else
 var
-n=b[3],q=n?0===n[1][0]?m(c,f(a)):aN(c,f(a),b):aN(c,f(a),b),l=q;var
+n=b[3],q=n?0===n[1][0]?m(c,f(a)):aP(c,f(a),b):aP(c,f(a),b),l=q;var
 g=l;o=1}if(!o)var
-g=aN(c,f(a),b);var
+g=aP(c,f(a),b);var
 d=g}else
 var
-d=aN(c,f(a),b);if(d){var
+d=aP(c,f(a),b);if(d){var
 h=b[1]-1|0;if(!(11<h>>>0))switch(h){case
 0:var
 j=b[2],p=j?[0,aY(j[1]),0]:ax(0,f(a));return k(function(c){var
@@ -8353,84 +8368,84 @@ b=F(a,c);return b?0===b[1][0]?0:1:b},p);case
 11:return k(function(a){return 0===a[0]?0:1},a)}var
 i=1}else
 var
-i=d;return i},b):d,g=e?iA(b):e,h=g?k(function(a){return gx(a[2])},l):g;return h?k(lt,fj(0,f(a),0,b)):h}function
-rJ(a){if(a){var
+i=d;return i},b):d,g=e?iB(b):e,h=g?k(function(a){return gy(a[2])},l):g;return h?k(lv,fj(0,f(a),0,b)):h}function
+rL(a){if(a){var
 b=a[1];if(c_(b))return 0;var
-c=[0,b,rJ(a[2])]}else
+c=[0,b,rL(a[2])]}else
 var
 c=a;return c}function
 et(h,g,e,c,b){var
-i=rJ(b),k=y(function(a){return is(h,e,c,a)},i),l=mM(d(function(a){return f5(j,g,a)},k)),a=y(ri,b),m=a?[0,a[1],a[2]]:EL;return P(f(m),l)}function
-lv(a){return 2<=a?EM:EN}function
-lw(n,l,k,j,f,i){var
-g=et(n,l,k,j,f),c=rA(i);if(c){var
+i=rL(b),k=x(function(a){return it(h,e,c,a)},i),l=mO(d(function(a){return f6(j,g,a)},k)),a=x(rk,b),m=a?[0,a[1],a[2]]:EP;return P(f(m),l)}function
+lx(a){return 2<=a?EQ:ER}function
+ly(n,l,k,j,f,i){var
+g=et(n,l,k,j,f),c=rC(i);if(c){var
 a=c[1],e=0;if(typeof
 a==="number")var
 h=[0,a];else
 if(0===a[0]){var
 o=a[2],p=a[1],b=p,d=function(a){return[0,a,o]};e=1}else{var
-q=a[2],r=a[1],b=r,d=function(a){return[1,a,q]};e=1}if(e){if(!L(ag(c_,f))&&!aE(b,g))return m(b,g)?0:[0,d(aY(b))];return[0,d(b)]}}else
+q=a[2],r=a[1],b=r,d=function(a){return[1,a,q]};e=1}if(e){if(!J(ag(c_,f))&&!aF(b,g))return m(b,g)?0:[0,d(aY(b))];return[0,d(b)]}}else
 var
 h=c;return h}function
-gy(b,a){var
-c=f(aP(function(a){return 0===a[0]?0:1},b));return m(f(a),c)}function
-iE(a){var
-b=M(ax(0,f(a)),a);return d(ao,aP(function(a){return jZ(a[2])},b))}function
-rK(a){var
-b=a[1],c=d(iy,a[1]);return hH(iz(a[1]),c,b)}function
-lx(a){return iE(rK(a))}function
-rL(b,a){if(a){var
-c=a[1],e=a[2],f=rL(P(b,c[1]),e),h=c[2];return g(d(function(a){return ax(P(b,a),EO)},h),f)}return a}function
-rM(d,a){function
+gz(b,a){var
+c=f(aN(function(a){return 0===a[0]?0:1},b));return m(f(a),c)}function
+iF(a){var
+b=M(ax(0,f(a)),a);return d(ap,aN(function(a){return j1(a[2])},b))}function
+rM(a){var
+b=a[1],c=d(iz,a[1]);return hI(iA(a[1]),c,b)}function
+lz(a){return iF(rM(a))}function
+rN(b,a){if(a){var
+c=a[1],e=a[2],f=rN(P(b,c[1]),e),h=c[2];return g(d(function(a){return ax(P(b,a),ES)},h),f)}return a}function
+rO(d,a){function
 b(f){var
 a=F(d,f);if(a){var
-b=ou(a[1]);if(b)return H(b[1],e);var
+b=ow(a[1]);if(b)return H(b[1],e);var
 c=1}else
 var
 c=a;return c}var
-c=rL(0,a);return aP(function(a){return k(b,a)},c)}function
-rN(a){switch(a[0]){case
-0:return EP;case
-1:return a[3]?EQ:ER;default:return ES}}function
-ET(a){return 0===a[0]?rN(a[1]):EU}function
-iF(a){if(a){var
+c=rN(0,a);return aN(function(a){return k(b,a)},c)}function
+rP(a){switch(a[0]){case
+0:return ET;case
+1:return a[3]?EU:EV;default:return EW}}function
+EX(a){return 0===a[0]?rP(a[1]):EY}function
+iG(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,e,0]}function
-ly(aA,Z,az,Y,X,b,ay,W){var
-a=ir(Z,az,Y,X),aB=f(W),aD=d(rN,a[1]),aE=rM(rK(a),aD),aF=aA?0:lx(a),B=eq(EV,lx(a),aF,aE,aB,W);if(B){var
+lA(aA,Z,az,Y,X,b,ay,W){var
+a=is(Z,az,Y,X),aB=f(W),aD=d(rP,a[1]),aF=rO(rM(a),aD),aG=aA?0:lz(a),B=eq(EZ,lz(a),aG,aF,aB,W);if(B){var
 _=B[1];if(_[2])return 0;var
-$=iD(Z,Y,X,a);if($){var
-aG=_[1],C=d(iy,a[1]),c=iz(a[1]),aI=iF(ay),V=oU(j,a);if(V){var
-m=hH(c,C,a[1]),i=jW(c,C,a[1],0),ac=f(a[3]),ae=P(f(m),ac),K=[0,f(m),ae],af=a[3],E=ag(function(a){if(typeof
-a!=="number"&&14===a[0])return 1;return 0},af),ah=E?y(function(a){var
-b=d(aH,f1(m,a[4]));return[0,a[4],b]},i):E,ai=g(jY(i,c,K,a[3]),ah),aj=g(bK(nv(i)),ai),L=g(bK(fO(i)),aj),M=dm(L),N=dl(M),r=cT(N),O=k(function(a){var
+$=iE(Z,Y,X,a);if($){var
+aH=_[1],C=d(iz,a[1]),c=iA(a[1]),aI=iG(ay),V=oW(j,a);if(V){var
+m=hI(c,C,a[1]),i=jY(c,C,a[1],0),ac=f(a[3]),ae=P(f(m),ac),K=[0,f(m),ae],af=a[3],E=ag(function(a){if(typeof
+a!=="number"&&14===a[0])return 1;return 0},af),ah=E?x(function(a){var
+b=d(aE,f2(m,a[4]));return[0,a[4],b]},i):E,ai=g(j0(i,c,K,a[3]),ah),aj=g(bK(nx(i)),ai),L=g(bK(fO(i)),aj),M=dm(L),N=dl(M),r=cT(N),O=k(function(a){var
 b=n(e);return a3(q(h(r,a),N,b),a)},L);if(O){var
-Q=ag(wd,a[3]);if(Q){var
+Q=ag(wh,a[3]);if(Q){var
 t=C,o=a[1];for(;;){if(o){var
-p=o[1],u=bz(e,t);switch(p[0]){case
+p=o[1],u=bH(e,t);switch(p[0]){case
 0:var
-F=p[1],G=hK(b,F[1],u),D=0;if(G){var
+F=p[1],G=hL(b,F[1],u),D=0;if(G){var
 s=av(b,[0,F[4],c]);if(s)var
 l=I(e,s[1][1]);else{var
 H=s;D=1}}else{var
 H=G;D=1}if(D)var
 l=H;break;case
 1:var
-J=p[3],l=J?hK(b,J[1],u):1;break;default:var
-l=hK(b,p[1],u)}if(l){var
-ab=o[2],t=bp(t),o=ab;continue}var
+J=p[3],l=J?hL(b,J[1],u):1;break;default:var
+l=hL(b,p[1],u)}if(l){var
+ab=o[2],t=by(t),o=ab;continue}var
 R=l}else
 var
 R=1;var
 v=R;break}}else
 var
 v=Q;if(v){var
-ak=a[3],al=y(function(a){return d4(c,a)},ak),am=a[3],an=g(m,g(d(function(a){return ca(c,a)},am),al)),w=ad(d(function(a){return av(b,a)},an));if(w){var
-ao=bi(e2(a[2]),c),x=ad(d(function(a){return av(b,a)},ao));if(x){var
-z=ad(oH(b,aI,r,m,i,c,K,a[3]));if(z){var
-S=z[1],ap=jV(S),aq=x[1],ar=a[2],as=function(a){return oI(b,ar,c,a)},at=w[1],au=nv(i),aw=h(aC(r),au),ax=fO(i);return fm(jU(b,M,h(aC(r),ax),aw,0,at,S,as),aq,ap,aG)}var
+ak=a[3],al=x(function(a){return d4(c,a)},ak),am=a[3],an=g(m,g(d(function(a){return ca(c,a)},am),al)),w=ad(d(function(a){return av(b,a)},an));if(w){var
+ao=bi(e2(a[2]),c),y=ad(d(function(a){return av(b,a)},ao));if(y){var
+z=ad(oJ(b,aI,r,m,i,c,K,a[3]));if(z){var
+S=z[1],ap=jX(S),aq=y[1],ar=a[2],as=function(a){return oK(b,ar,c,a)},at=w[1],au=nx(i),aw=h(aC(r),au),ax=fO(i);return fm(jW(b,M,h(aC(r),ax),aw,0,at,S,as),aq,ap,aH)}var
 T=z}else
 var
-T=x;var
+T=y;var
 U=T}else
 var
 U=w;var
@@ -8442,81 +8457,81 @@ A=O;return A}return V}var
 aa=$}else
 var
 aa=B;return aa}function
-EW(a){if(0===a[0])return rw(a[1]);var
+E0(a){if(0===a[0])return ry(a[1]);var
 b=a[1],c=e4(b[6]);return g(e4(b[5]),c)}function
-EX(a){if(0===a[0])return rx(a[1]);var
+E1(a){if(0===a[0])return rz(a[1]);var
 b=a[1],c=bk(b[4]);return g(bk(b[3]),c)}function
-rO(c){var
-b=y(EW,c),d=b?[0,b[1],b[2]]:y(EX,c);return G(a,bX(d))}function
-EY(a){if(0===a[0])return[0,iy(a[1]),e];var
-b=a[1],c=bX(bk(b[2]));return[0,bX(bk(b[1])),c]}function
-lz(h,b,s,r,q,g,C,B,p){var
-a=lh(h,b,s,r,q,g),t=rO(a[2]),u=d(EY,a[2]),i=kE(t,u,a[2]),D=f(p),E=rM(i,d(ET,a[2])),F=iE(i),G=iE(i),l=eq(as(h),G,F,E,D,p);if(l){var
+rQ(c){var
+b=x(E0,c),d=b?[0,b[1],b[2]]:x(E1,c);return G(a,bY(d))}function
+E2(a){if(0===a[0])return[0,iz(a[1]),e];var
+b=a[1],c=bY(bk(b[2]));return[0,bY(bk(b[1])),c]}function
+lB(h,b,s,r,q,g,C,B,p){var
+a=lj(h,b,s,r,q,g),t=rQ(a[2]),u=d(E2,a[2]),i=kG(t,u,a[2]),D=f(p),E=rO(i,d(EX,a[2])),F=iF(i),G=iF(i),l=eq(as(h),G,F,E,D,p);if(l){var
 v=l[1];if(v[2])return 0;var
-w=iC(h,b,s,r,q,g);if(w){var
-H=v[1],I=f(b),J=et(ep(b),EZ,I,0,g),K=iF(B),y=d(yd,a[2]),m=e$(j,a[2],y);if(m)var
-z=j4(a[4]),c=c2(j,a[4],z);else
+w=iD(h,b,s,r,q,g);if(w){var
+H=v[1],I=f(b),J=et(ep(b),E3,I,0,g),K=iG(B),y=d(yh,a[2]),m=e$(j,a[2],y);if(m)var
+z=j6(a[4]),c=c2(j,a[4],z);else
 var
 c=m;if(c){var
 n=a[5];if(n)var
-A=hY(n[1]),o=k(function(a){return gg(j,a)},A);else
+A=hZ(n[1]),o=k(function(a){return gh(j,a)},A);else
 var
 o=1;var
 e=o}else
 var
-e=c;return e?ya(C,K,J,a,t,u,H):e}var
+e=c;return e?ye(C,K,J,a,t,u,H):e}var
 x=w}else
 var
 x=l;return x}function
-lA(z,C,a0,aZ,aY,ac,bB,aX,H){var
+lC(z,C,a0,aZ,aY,ac,bB,aX,H){var
 I=typeof
-z==="number"?z?E0:E1:iB(z[1]),N=d(l,bB),b=lh(z,C,a0,aZ,aY,ac),a1=ls(C,d(l,aX));if(a1[2])return 0;var
-u=a1[1],a2=gy(y(lu,C),aX),a3=a2?iC(z,C,a0,aZ,aY,ac):a2;if(a3)var
+z==="number"?z?E4:E5:iC(z[1]),N=d(l,bB),b=lj(z,C,a0,aZ,aY,ac),a1=lu(C,d(l,aX));if(a1[2])return 0;var
+u=a1[1],a2=gz(x(lw,C),aX),a3=a2?iD(z,C,a0,aZ,aY,ac):a2;if(a3)var
 bC=as(z),ad=m(f(N),bC);else
 var
 ad=a3;if(ad){if(typeof
 H!=="number"&&2===H[0]){var
-ak=d(l,H[1]),bF=aw(I,ak),a8=aR(ap(I,ak)),bG=aw(I,N),a9=aR(ap(I,N)),ay=e$(j,b[2],u),az=ay?c2(j,b[4],a9):ay,aA=az?c2(j,b[4],a8):az,a_=aA?qB(j,b[1],b[3],b[5],u,a9,bG,a8,bF):aA;if(a_){var
+ak=d(l,H[1]),bF=aw(I,ak),a8=aS(ao(I,ak)),bG=aw(I,N),a9=aS(ao(I,N)),ay=e$(j,b[2],u),az=ay?c2(j,b[4],a9):ay,aA=az?c2(j,b[4],a8):az,a_=aA?qD(j,b[1],b[3],b[5],u,a9,bG,a8,bF):aA;if(a_){var
 bH=as(z);return m(f(ak),bH)}return a_}var
-bD=f(C),bE=ge(z),ae=lw(ep(C),bE,bD,0,ac,H);if(ae){var
-P=ae[1],g=aR(ap(I,N)),n=aw(I,N),a$=0;if(typeof
+bD=f(C),bE=gf(z),ae=ly(ep(C),bE,bD,0,ac,H);if(ae){var
+P=ae[1],g=aS(ao(I,N)),n=aw(I,N),a$=0;if(typeof
 H==="number"&&H){var
-af=L(ep(C));a$=1}if(!a$)var
+af=J(ep(C));a$=1}if(!a$)var
 af=1;if(af){var
-au=e$(j,b[2],u),av=au?h1(j,b,g,n):au;if(av)var
-x=b[5],ax=b[3],J=b[1],bk=b[6],ba=d(function(b){if(0===b[0])var
-e=bl(x,n,g,b),c=bL(b[1],e);else
+au=e$(j,b[2],u),av=au?h2(j,b,g,n):au;if(av)var
+y=b[5],ax=b[3],K=b[1],bk=b[6],ba=d(function(b){if(0===b[0])var
+e=bl(y,n,g,b),c=bL(b[1],e);else
 var
-d=b[1],f=j$(d,bl(x,n,g,b)),h=d[4],i=bl(x,n,g,b),j=O(function(b,a){return[2,b,a]},i,h),c=O(function(b,a){return[3,b,a]},j,f);return[0,kn(J,c,T([5,[0,a,a],ax],cz(ee(x,n,ed(b)),c)))]},u),bd=y(function(a){return kp(x,n,g,a)},u),be=function(a){var
-b=ee(x,n,a);return O(function(b,a){return[2,b,a]},g,b)},bf=0,bg=d(function(f){var
-c=bl(x,n,g,f);if(0===f[0]){var
+d=b[1],f=kb(d,bl(y,n,g,b)),h=d[4],i=bl(y,n,g,b),j=O(function(b,a){return[2,b,a]},i,h),c=O(function(b,a){return[3,b,a]},j,f);return[0,kp(K,c,T([5,[0,a,a],ax],cA(ee(y,n,ed(b)),c)))]},u),bd=x(function(a){return kr(y,n,g,a)},u),be=function(a){var
+b=ee(y,n,a);return O(function(b,a){return[2,b,a]},g,b)},bf=0,bg=d(function(f){var
+c=bl(y,n,g,f);if(0===f[0]){var
 b=f[1];switch(b[0]){case
 0:var
-i=b[4],j=b[3],k=b[2],h=b[1],m=cb(h,k,j,i,c),l=cy(b[5],m),o=T(l,aG(h)),p=d6(h,k,j,c);return[0,[0,ko(J,O(function(b,a){return[2,b,a]},p,o)),l,i]];case
+i=b[4],j=b[3],k=b[2],h=b[1],m=cb(h,k,j,i,c),l=cz(b[5],m),o=T(l,aH(h)),p=d6(h,k,j,c);return[0,[0,kq(K,O(function(b,a){return[2,b,a]},p,o)),l,i]];case
 1:var
-q=bL(b,c),r=[6,v(bL(b,c),q)];return[0,[0,ko(J,bL(b,c)),[0,e,a],r]];default:return 0}}var
-d=f[1],s=d[6],t=d8(d,c),u=j$(d,c),w=d[4],y=O(function(b,a){return[2,b,a]},c,w);return[0,[0,ko(J,O(function(b,a){return[3,b,a]},y,u)),t,s]]},u),bh=d(function(a){return e_(x,n,g,a)},u),bi=[0,d(function(a){return pA(J,ax,x,n,g,a)},u),bh,bg,bf,be,bd,ba],bm=as(b[1]),ah=j6(j,ge(b[1]),bm,bi,bk,P);else
+q=bL(b,c),r=[6,v(bL(b,c),q)];return[0,[0,kq(K,bL(b,c)),[0,e,a],r]];default:return 0}}var
+d=f[1],s=d[6],t=d8(d,c),u=kb(d,c),w=d[4],x=O(function(b,a){return[2,b,a]},c,w);return[0,[0,kq(K,O(function(b,a){return[3,b,a]},x,u)),t,s]]},u),bh=d(function(a){return e_(y,n,g,a)},u),bi=[0,d(function(a){return pC(K,ax,y,n,g,a)},u),bh,bg,bf,be,bd,ba],bm=as(b[1]),ah=j8(j,gf(b[1]),bm,bi,bk,P);else
 var
 ah=av;if(ah)var
 ai=ah;else{if(typeof
 P!=="number"&&0===P[0]){var
-p=P[2],a6=P[1],t=b[1],aQ=e$(j,b[2],u),aS=aQ?h1(j,b,g,n):aQ,al=0;if(aS){var
-bx=b[6],Z=d7(j,ge(t),a6,bx),am=0;if(Z){var
+p=P[2],a6=P[1],t=b[1],aQ=e$(j,b[2],u),aR=aQ?h2(j,b,g,n):aQ,al=0;if(aR){var
+by=b[6],Z=d7(j,gf(t),a6,by),am=0;if(Z){var
 G=Z[1][1],an=0;if(typeof
 G!=="number"&&15===G[0]){var
 _=F(u,G[1]);if(_){var
 o=_[1],$=bl(b[5],n,g,o);if(typeof
 t==="number")if(0===o[0])if(2===o[1][0]){var
-ao=0;if(p)if(p[2])var
+ap=0;if(p)if(p[2])var
 r=0;else{var
-aN=[0,f6(p[1]),0];ao=1}else{var
-aN=p;ao=1}if(ao)var
+aN=[0,f7(p[1]),0];ap=1}else{var
+aN=p;ap=1}if(ap)var
 r=aN}else
 if(p)var
 r=0;else{var
 aK=function(b){var
 c=[0,[0,[0,a,a],[0,e,a],[0,e,a]],[0,[0,[0,e,a],[0,a,a],[0,e,a]],[0,[0,[0,e,a],[0,e,a],[0,a,a]],0]]];return d(function(c){var
-a=cz(b,c);return[0,a[1],[0,a[2],[0,a[3],0]]]},c)},aL=typeof
+a=cA(b,c);return[0,a[1],[0,a[2],[0,a[3],0]]]},c)},aL=typeof
 t==="number"?1:0;if(aL)if(t)if(0===o[0]){var
 R=o[1],aq=0;switch(R[0]){case
 0:var
@@ -8540,41 +8555,41 @@ var
 r=aL}else{var
 ar=0;if(p)if(p[2])var
 r=0;else{var
-aO=[0,f6(p[1]),0];ar=1}else{var
+aO=[0,f7(p[1]),0];ar=1}else{var
 aO=p;ar=1}if(ar)var
 r=aO}else{var
 at=0;if(p)if(p[2])var
 r=0;else{var
-aP=[0,f6(p[1]),0];at=1}else{var
+aP=[0,f7(p[1]),0];at=1}else{var
 aP=p;at=1}if(at)var
 r=aP}var
 aV=G[3],aa=b[5],ab=b[3],bz=G[4],bA=G[2],S=ag(function(l){var
-S=pA(t,ab,aa,n,g,o),D=bj(l,l),E=[4,[4,bA,[6,bj(S,S)]],D],A=ee(aa,n,ed(o)),h=bl(aa,n,g,o),ax=typeof
-t==="number"?[0,[0,e,a],[0,e,a],[0,e,a]]:kT(t[1],l),s=T([5,[0,a,a],ab],ax),R=0===o[0]?cc(o[1],h):ka(o[1],h),ay=v(s,s),az=[4,v(R,A),ay],aA=v(A,s),aB=[3,[4,v(R,s),aA],az],aC=cz(s,A);function
+S=pC(t,ab,aa,n,g,o),D=bj(l,l),E=[4,[4,bA,[6,bj(S,S)]],D],A=ee(aa,n,ed(o)),h=bl(aa,n,g,o),ax=typeof
+t==="number"?[0,[0,e,a],[0,e,a],[0,e,a]]:kV(t[1],l),s=T([5,[0,a,a],ab],ax),R=0===o[0]?cc(o[1],h):kc(o[1],h),ay=v(s,s),az=[4,v(R,A),ay],aA=v(A,s),aB=[3,[4,v(R,s),aA],az],aC=cA(s,A);function
 p(b){return q(b,l,[0,e,a])}if(typeof
 t==="number")if(t)var
-ag=p(yW),C=[0,p(0),ag,[0,e,a]];else
+ag=p(y0),C=[0,p(0),ag,[0,e,a]];else
 var
-ah=p(yX),ai=p(yY),C=[0,p(0),ai,ah];else
+ah=p(y1),ai=p(y2),C=[0,p(0),ai,ah];else
 var
-C=kS(t[1],l);var
+C=kU(t[1],l);var
 b=O(function(b,a){return[2,b,a]},C,aC);if(0===o[0]){var
 k=o[1];switch(k[0]){case
 0:var
-L=k[3],M=k[2],y=k[1],aj=cb(y,M,L,k[4],h),u=cy(k[5],aj),N=v(d6(y,M,L,h),b),P=v(aG(y),b),x=[2,[5,[3,v(b,b),[4,P,P]],u],[5,[4,N,N],[4,u,[4,u,u]]]];break;case
+L=k[3],M=k[2],y=k[1],aj=cb(y,M,L,k[4],h),u=cz(k[5],aj),N=v(d6(y,M,L,h),b),P=v(aH(y),b),x=[2,[5,[3,v(b,b),[4,P,P]],u],[5,[4,N,N],[4,u,[4,u,u]]]];break;case
 1:var
 r=aW(k[1],k[2],h),ak=[6,v(r,r)],al=v(r,r),Q=v(r,b),x=[5,[3,v(b,b),[5,[4,Q,Q],al]],ak];break;default:var
 x=[0,e,a]}}else
 var
-d=o[1],z=v(ka(d,h),b),am=d8(d,h),an=[4,d[5],am],ao=f_(d,h),ap=[4,[4,d[5],[4,z,z]],ao],aq=v(e3(d),b),ar=[4,j_(d,h),aq],at=v(f7(d),b),au=[3,[4,j9(d,h),at],ar],av=[4,d[5],z],aw=[4,[4,[0,c(2,a),a],av],au],x=[5,[2,[3,v(b,b),aw],ap],an];var
+d=o[1],z=v(kc(d,h),b),am=d8(d,h),an=[4,d[5],am],ao=f$(d,h),ap=[4,[4,d[5],[4,z,z]],ao],aq=v(e3(d),b),ar=[4,ka(d,h),aq],at=v(f8(d),b),au=[3,[4,j$(d,h),at],ar],av=[4,d[5],z],aw=[4,[4,[0,c(2,a),a],av],au],x=[5,[2,[3,v(b,b),aw],ap],an];var
 F=[4,[4,aV,aV],[2,x,aB]],G=[4,bz,D],aD=as(t),U=m(f(l),aD),V=U?i(j,1,D):U,W=V?typeof
 t==="number"?1:i(j,1,ab):V;if(W){if(0===o[0]){var
 X=i(j,1,[3,[2,E,F],G]);return X?X:i(j,1,[3,[3,E,F],G])}var
-H=aF(j,E);if(H){var
-Y=H[1],I=aF(j,F);if(I){var
-Z=I[1],J=aF(j,G);if(J){var
-K=jx(j,J[1]);if(K){var
-_=K[1],$=bW([0,B(w(Y,Z),_)]);if(!$)return bW([0,B(B(Y,Z),_)]);var
+H=aG(j,E);if(H){var
+Y=H[1],I=aG(j,F);if(I){var
+Z=I[1],J=aG(j,G);if(J){var
+K=jy(j,J[1]);if(K){var
+_=K[1],$=bX([0,B(w(Y,Z),_)]);if(!$)return bX([0,B(B(Y,Z),_)]);var
 ac=$}else
 var
 ac=K;var
@@ -8592,21 +8607,21 @@ aT=0}else
 var
 aT=Z;if(!am){var
 aU=aT;al=1}}else{var
-aU=aS;al=1}if(al)var
+aU=aR;al=1}if(al)var
 S=aU;if(S)var
 a7=S;else{if(p){if(p[2])return 0;var
-aj=p[1],aB=b[1],Q=b[5],aC=e$(j,b[2],u),aD=aC?h1(j,b,g,n):aC;if(aD){var
-bo=b[6],U=d7(j,ge(aB),a6,bo);if(U){var
-K=U[1][1];if(typeof
-K!=="number"&&16===K[0]){var
-A=K[1],bp=b[2],bq=d(function(a){return e_(Q,n,g,qO(a))},bp),aI=h(cA(c5),A);if(aI)var
-bn=h(g3(c(2,a)),c5),D=[0,by(e,aI[1][1]),bn];else
+aj=p[1],aB=b[1],Q=b[5],aC=e$(j,b[2],u),aD=aC?h2(j,b,g,n):aC;if(aD){var
+bo=b[6],U=d7(j,gf(aB),a6,bo);if(U){var
+L=U[1][1];if(typeof
+L!=="number"&&16===L[0]){var
+A=L[1],bp=b[2],bq=d(function(a){return e_(Q,n,g,qQ(a))},bp),aI=h(cB(c5),A);if(aI)var
+bn=h(g4(c(2,a)),c5),D=[0,bx(e,aI[1][1]),bn];else
 var
 D=[0,e,a];var
 aJ=i(j,0,A);if(aJ)var
 br=b[2],V=k(function(a){var
-b=qO(a);if(0===b[0])return 1;var
-c=b[1],d=[1,c],e=cB(j,A),f=e?pB(j,a,d):e;return f?i(j,1,j8(c,bl(Q,n,g,d))):f},br);else
+b=qQ(a);if(0===b[0])return 1;var
+c=b[1],d=[1,c],e=cC(j,A),f=e?pD(j,a,d):e;return f?i(j,1,j_(c,bl(Q,n,g,d))):f},br);else
 var
 V=aJ;if(V)var
 bs=f(b[2]),W=m(f(aj),bs);else
@@ -8615,28 +8630,28 @@ W=V;if(W){var
 bt=M(aj,bq),bu=M(M(u,d(function(o){var
 b=o[2],f=o[1];if(typeof
 b!=="number"&&1===b[0]){var
-g=b[2],k=b[1],p=c(2,c(2,c(2,s(c(2,c(2,a)))))),e=ih(A,bb(D,dR([0,a,a],[0,a,h(g3(c(2,a)),p)])),f,[1,k,g]);if(typeof
+g=b[2],k=b[1],p=c(2,c(2,c(2,s(c(2,c(2,a)))))),e=ii(A,bb(D,dS([0,a,a],[0,a,h(g4(c(2,a)),p)])),f,[1,k,g]);if(typeof
 e!=="number"&&1===e[0]){var
 d=ei([5,e[2],[2,[0,a,a],e[1]]]),q=[4,g,d_(d)],l=[2,[4,k,d9(d)],q],r=[4,g,d9(d)],m=[3,[4,k,d_(d)],r],n=[4,bc(D),[2,[0,a,a],l]];if(i(j,1,[2,[0,a,a],l])&&i(j,0,[3,n,m])&&i(j,0,[2,n,m])){var
-t=d_(d);return[1,d9(d),t]}return ih(A,D,f,b)}return ih(A,D,f,b)}return ih(A,D,f,b)},bt)),aj),bv=y(function(t){var
+t=d_(d);return[1,d9(d),t]}return ii(A,D,f,b)}return ii(A,D,f,b)}return ii(A,D,f,b)},bt)),aj),bv=x(function(t){var
 l=t[1],b=l[2],f=l[1],h=t[2],i=ee(Q,n,ed(f)),e=bl(Q,n,g,f);if(0===f[0]){var
 d=f[1];switch(d[0]){case
 0:var
 m=d[4],o=d[3],j=d[2],k=d[1];if(typeof
 b!=="number"&&0===b[0]){var
-p=b[1],u=0,w=T(p,aG(k)),x=O(function(b,a){return[3,b,a]},g,j),y=O(function(b,a){return[3,b,a]},x,w),z=aW(j,o,e),A=[3,v(aG(k),z),p],B=cb(k,j,o,m,e);return[0,[0,ei([5,[0,h,a],[2,cy(d[5],B),A]]),m,y,i],u]}return 0;case
+p=b[1],u=0,w=T(p,aH(k)),x=O(function(b,a){return[3,b,a]},g,j),y=O(function(b,a){return[3,b,a]},x,w),z=aW(j,o,e),A=[3,v(aH(k),z),p],B=cb(k,j,o,m,e);return[0,[0,ei([5,[0,h,a],[2,cz(d[5],B),A]]),m,y,i],u]}return 0;case
 1:if(typeof
 b!=="number"&&0===b[0]){var
 q=b[1],C=0,D=d[1],E=O(function(b,a){return[3,b,a]},g,D);return[0,[0,ei([5,[0,h,a],[2,q,c3(d,e)]]),q,E,i],C]}return 0;default:return 0}}var
 c=f[1];if(typeof
 b!=="number"&&1===b[0]){var
-r=b[2],s=b[1],F=[4,r,f8(c,e)],G=[3,[4,s,f9(c,e)],F],I=T(r,f7(c)),H=0,J=T(s,e3(c)),K=O(function(b,a){return[2,b,a]},J,I),L=T(c[5],K),M=c[3],N=O(function(b,a){return[2,b,a]},M,L),P=O(function(b,a){return[3,b,a]},g,N),R=c[6],S=[2,d8(c,e),G];return[0,[0,ei([5,[0,h,a],[4,c[5],S]]),R,P,i],H]}return 0},bu);return qM(j,aB,K[2],K[3],bv)}return W}var
+r=b[2],s=b[1],F=[4,r,f9(c,e)],G=[3,[4,s,f_(c,e)],F],I=T(r,f8(c)),H=0,J=T(s,e3(c)),K=O(function(b,a){return[2,b,a]},J,I),L=T(c[5],K),M=c[3],N=O(function(b,a){return[2,b,a]},M,L),P=O(function(b,a){return[3,b,a]},g,N),R=c[6],S=[2,d8(c,e),G];return[0,[0,ei([5,[0,h,a],[4,c[5],S]]),R,P,i],H]}return 0},bu);return qO(j,aB,L[2],L[3],bv)}return W}var
 aE=0}else
 var
 aE=U;var
-aH=aE}else
+aF=aE}else
 var
-aH=aD;return aH}var
+aF=aD;return aF}var
 a7=p}return a7}var
 ai=0}}else
 var
@@ -8650,71 +8665,71 @@ a5=ad;return a5}function
 da(a){if(a){var
 b=cV(l(a[1]));if(b){var
 c=da(a[2]);if(c)var
-f=c[1],d=[0,[0,dS(b[1]),f]];else
+f=c[1],d=[0,[0,dT(b[1]),f]];else
 var
 d=c;var
 e=d}else
 var
-e=b;return e}return E2}function
-iG(g,k,j,b,i){var
+e=b;return e}return E6}function
+iH(g,k,j,b,i){var
 l=f(g),h=m(f(b),l);if(h){var
 n=M(M(g,M(k,j)),b);return d(function(f){var
-g=f[1],h=g[2],j=dR(h[2],h[1]),b=aX(g[1],i),k=D(e,b)?mQ(cp(c(2,a),b)):[0,a,eH(cp(c(2,a),W(b)))],l=dS(ha(bb([0,c(2,a),a],k),j)),m=f[2];return d(function(a){return dS(bb(mQ(a),l))},m)},n)}return h}function
-lB(u,aU,aq,ap,t,ao,b){var
-c=ir(u,aU,aq,ap),ar=gy(y(rD,u),ao),g=ar?iD(u,aq,ap,c):ar;if(t){var
+g=f[1],h=g[2],j=dS(h[2],h[1]),b=aX(g[1],i),k=D(e,b)?mS(cq(c(2,a),b)):[0,a,eH(cq(c(2,a),W(b)))],l=dT(hb(bb([0,c(2,a),a],k),j)),m=f[2];return d(function(a){return dT(bb(mS(a),l))},m)},n)}return h}function
+lD(u,aU,aq,ap,t,ao,b){var
+c=is(u,aU,aq,ap),ar=gz(x(rF,u),ao),g=ar?iE(u,aq,ap,c):ar;if(t){var
 v=t[2];if(v){var
 w=v[2];if(w){if(w[2])return 0;var
-h=w[1],i=v[1],m=t[1],as=rB(u,d(l,ao));if(as[2])return 0;var
+h=w[1],i=v[1],m=t[1],as=rD(u,d(l,ao));if(as[2])return 0;var
 f=as[1];if(typeof
 b!=="number")switch(b[0]){case
 2:var
 J=b[1];if(J){var
 K=J[2];if(K){var
 L=K[2];if(L){if(L[2]){var
-M=gw(c,b);if(M){var
+M=gx(c,b);if(M){var
 aX=l(h),aY=l(i),az=[0,l(m),aY,aX];if(g){var
-aA=f4(j,c,f,az,M[1]);if(aA)var
+aA=f5(j,c,f,az,M[1]);if(aA)var
 N=aA;else{if(typeof
 b!=="number"&&0===b[0]){var
-z=b[2];return z?z[2]?0:gm(j,c,f,az,b[1],z[1]):z}var
+z=b[2];return z?z[2]?0:gn(j,c,f,az,b[1],z[1]):z}var
 N=0}}else
 var
 N=g;var
 aB=N}else
 var
 aB=M;return aB}if(g){var
-aZ=l(L[1]),a0=l(K[1]),aC=[0,l(J[1]),a0,aZ],a1=l(h),a2=l(i),aD=[0,l(m),a2,a1],X=f2(j,c,f,aD),Y=X?c2(j,c[2],aC):X;if(Y){var
-aR=0,aS=0;return qB(j,0,[0,a,a],0,d(function(a){return[0,a]},f),aD,aS,aC,aR)}return Y}return g}var
-O=gw(c,b);if(O){var
+aZ=l(L[1]),a0=l(K[1]),aC=[0,l(J[1]),a0,aZ],a1=l(h),a2=l(i),aD=[0,l(m),a2,a1],X=f3(j,c,f,aD),Y=X?c2(j,c[2],aC):X;if(Y){var
+aR=0,aS=0;return qD(j,0,[0,a,a],0,d(function(a){return[0,a]},f),aD,aS,aC,aR)}return Y}return g}var
+O=gx(c,b);if(O){var
 a3=l(h),a4=l(i),aE=[0,l(m),a4,a3];if(g){var
-aF=f4(j,c,f,aE,O[1]);if(aF)var
+aF=f5(j,c,f,aE,O[1]);if(aF)var
 P=aF;else{if(typeof
 b!=="number"&&0===b[0]){var
-A=b[2];return A?A[2]?0:gm(j,c,f,aE,b[1],A[1]):A}var
+A=b[2];return A?A[2]?0:gn(j,c,f,aE,b[1],A[1]):A}var
 P=0}}else
 var
 P=g;var
 aG=P}else
 var
 aG=O;return aG}var
-Q=gw(c,b);if(Q){var
+Q=gx(c,b);if(Q){var
 a6=l(h),a7=l(i),aH=[0,l(m),a7,a6];if(g){var
-aI=f4(j,c,f,aH,Q[1]);if(aI)var
+aI=f5(j,c,f,aH,Q[1]);if(aI)var
 R=aI;else{if(typeof
 b!=="number"&&0===b[0]){var
-B=b[2];return B?B[2]?0:gm(j,c,f,aH,b[1],B[1]):B}var
+B=b[2];return B?B[2]?0:gn(j,c,f,aH,b[1],B[1]):B}var
 R=0}}else
 var
 R=g;var
 aJ=R}else
 var
 aJ=Q;return aJ}var
-S=gw(c,b);if(S){var
+S=gx(c,b);if(S){var
 a8=l(h),a9=l(i),aK=[0,l(m),a9,a8];if(g){var
-aL=f4(j,c,f,aK,S[1]);if(aL)var
+aL=f5(j,c,f,aK,S[1]);if(aL)var
 T=aL;else{if(typeof
 b!=="number"&&0===b[0]){var
-C=b[2];return C?C[2]?0:gm(j,c,f,aK,b[1],C[1]):C}var
+C=b[2];return C?C[2]?0:gn(j,c,f,aK,b[1],C[1]):C}var
 T=0}}else
 var
 T=g;var
@@ -8728,22 +8743,22 @@ aN==="number"&&aN){var
 V=da(b[2]);if(V){var
 n=V[1],W=da(b[3]);if(W){var
 o=W[1];if(g){var
-a_=iG([0,e,[0,e,[0,e,0]]],n,o,b[4],b[5]),a$=l(h),ba=l(i),D=[0,l(m),ba,a$];if(n){var
+a_=iH([0,e,[0,e,[0,e,0]]],n,o,b[4],b[5]),a$=l(h),ba=l(i),D=[0,l(m),ba,a$];if(n){var
 p=n[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;if(o){var
 r=o[2];if(r){var
 s=r[2];if(s){if(s[2])return 0;var
-Z=s[1],_=r[1],$=o[1],aa=q[1],ab=p[1],ac=n[1],ad=[0,[1,0,ac,$],[1,yy,ab,_],[1,yx,aa,Z]],ae=f2(j,c,f,D);if(ae)var
+Z=s[1],_=r[1],$=o[1],aa=q[1],ab=p[1],ac=n[1],ad=[0,[1,0,ac,$],[1,yC,ab,_],[1,yB,aa,Z]],ae=f3(j,c,f,D);if(ae)var
 aT=c[3],E=ag(function(a){if(typeof
 a==="number"&&a)return 1;return 0},aT);else
 var
 E=ae;var
-af=E?ic(n,o):E,ah=af?kX(j,c[2],[0,[0,ac,ab],aa],[0,[0,$,_],Z]):af,ai=ah?fc(j,n,o,a5(D)):ah,aj=ai?k(function(a){var
-b=fb(kY(a)),c=b?fb([0,c3(a,D),0]):b;if(c){var
-d=j2(a,ad);if(d)return kW(j,yz,d[1]);var
+af=E?id(n,o):E,ah=af?kZ(j,c[2],[0,[0,ac,ab],aa],[0,[0,$,_],Z]):af,ai=ah?fc(j,n,o,a5(D)):ah,aj=ai?k(function(a){var
+b=fb(k0(a)),c=b?fb([0,c3(a,D),0]):b;if(c){var
+d=j4(a,ad);if(d)return kY(j,yD,d[1]);var
 e=1}else
 var
-e=c;return e},f):ai;if(aj)return ib(j,d(function(a){var
+e=c;return e},f):ai;if(aj)return ic(j,d(function(a){var
 b=c3(a,D);return[3,c3(a,ad),b]},f),a_);var
 ak=aj}else
 var
@@ -8771,12 +8786,12 @@ aP=V;return aP}var
 aQ=0}else
 var
 aQ=U;return aQ}var
-H=gw(c,b);if(H){var
+H=gx(c,b);if(H){var
 aV=l(h),aW=l(i),at=[0,l(m),aW,aV];if(g){var
-au=f4(j,c,f,at,H[1]);if(au)var
+au=f5(j,c,f,at,H[1]);if(au)var
 I=au;else{if(typeof
 b!=="number"&&0===b[0]){var
-x=b[2];return x?x[2]?0:gm(j,c,f,at,b[1],x[1]):x}var
+y=b[2];return y?y[2]?0:gn(j,c,f,at,b[1],y[1]):y}var
 I=0}}else
 var
 I=g;var
@@ -8792,23 +8807,23 @@ ax=v;var
 ay=ax}else
 var
 ay=t;return ay}function
-rP(n,m,b,l,C,B){var
+rR(n,m,b,l,C,B){var
 f=C,e=B;for(;;){if(0===e[0]){var
-h=e[1],i=F(f,h),o=i?aE(i[1][2],E5):i;if(o)var
-D=e[2],j=rP(n,m,b,l,lp(0,h,f),D);else
+h=e[1],i=F(f,h),o=i?aF(i[1][2],E9):i;if(o)var
+D=e[2],j=rR(n,m,b,l,lr(0,h,f),D);else
 var
 j=o;if(j){var
-E=e[3],f=lp(1,h,f),e=E;continue}return j}var
-c=e[1],a=ru(0,n,f),p=d(function(b){function
-d(b){return rv(a,b)}function
-c(a){return ln(d,a)}switch(b[0]){case
+E=e[3],f=lr(1,h,f),e=E;continue}return j}var
+c=e[1],a=rw(0,n,f),p=d(function(b){function
+d(b){return rx(a,b)}function
+c(a){return lp(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=rv(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=rx(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
-i=x(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},m);if(0===b[0])var
-t=b[2],u=ln(function(b){return aD(a,b)},t),v=b[1],k=[0,ln(function(b){return aD(a,b)},v),u];else
+i=y(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},m);if(0===b[0])var
+t=b[2],u=lp(function(b){return aD(a,b)},t),v=b[1],k=[0,lp(function(b){return aD(a,b)},v),u];else
 var
-w=aD(a,b[5]),y=aD(a,b[4]),z=aD(a,b[3]),A=aD(a,b[2]),k=[1,aD(a,b[1]),A,z,y,w];var
+w=aD(a,b[5]),x=aD(a,b[4]),z=aD(a,b[3]),A=aD(a,b[2]),k=[1,aD(a,b[1]),A,z,x,w];var
 q=d(function(g){var
 c=g[4];if(typeof
 c==="number")var
@@ -8834,85 +8849,85 @@ i=h;return[0,g[1],g[2],i,e]},l);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return ly(1,p,k,0,q,c[1],c[2],c[3]);default:var
+1:return lA(1,p,k,0,q,c[1],c[2],c[3]);default:var
 g=c[4],s=0;if(typeof
 g!=="number"&&2===g[0]){var
 J=g[1],r=[2,d(function(b){return aD(a,b)},J)];s=1}if(!s)var
 r=g;var
-G=c[3],H=d(function(b){return aD(a,b)},G),I=c[2];return lB(p,k,0,q,d(function(b){return aD(a,b)},I),H,r)}}}function
-rQ(h,g){var
+G=c[3],H=d(function(b){return aD(a,b)},G),I=c[2];return lD(p,k,0,q,d(function(b){return aD(a,b)},I),H,r)}}}function
+rS(h,g){var
 b=cV(l(h));if(b){var
-c=b[1],d=bq([0,e,a],c);if(d)return bq(c,g);var
+c=b[1],d=bp([0,e,a],c);if(d)return bp(c,g);var
 f=d}else
 var
 f=b;return f}function
-gz(b,a){if(a){var
+gA(b,a){if(a){var
 c=a[1],d=q(c,b,0);if(d)var
-g=ap(c,b),e=[0,[0,f(aP(function(a){return a},g))]];else
+g=ao(c,b),e=[0,[0,f(aN(function(a){return a},g))]];else
 var
-e=d;return e}return E7}function
-rR(b,c,a){return y(function(a){if(cj(a)){var
-e=is(0,b,0,a);return X(1,mM(d(function(a){return f5(j,E8,a)},e)))}return X(0,f(rh(b,c,a)))},a)}function
-rS(c,a){return d(function(a){var
-b=a[4],d=a[3],e=a[2],f=a[1];return[0,y(function(b){var
-a=gz(c,b[1]),d=a?[0,[0,a[1],b[2]],0]:a;return d},f),e,d,b]},a)}function
-rT(b,a){if(typeof
+e=d;return e}return E$}function
+rT(b,c,a){return x(function(a){if(cj(a)){var
+e=it(0,b,0,a);return X(1,mO(d(function(a){return f6(j,Fa,a)},e)))}return X(0,f(rj(b,c,a)))},a)}function
+rU(c,a){return d(function(a){var
+b=a[4],d=a[3],e=a[2],f=a[1];return[0,x(function(b){var
+a=gA(c,b[1]),d=a?[0,[0,a[1],b[2]],0]:a;return d},f),e,d,b]},a)}function
+rV(b,a){if(typeof
 a!=="number")switch(a[0]){case
 0:var
-c=a[2],d=gz(b,a[1]);return x(function(a){return[0,a,c]},d);case
+c=a[2],d=gA(b,a[1]);return y(function(a){return[0,a,c]},d);case
 1:var
-e=a[2],f=gz(b,a[1]);return x(function(a){return[1,a,e]},f);case
+e=a[2],f=gA(b,a[1]);return y(function(a){return[1,a,e]},f);case
 3:var
-g=a[5],h=a[4],i=a[3],j=a[2],k=gz(b,a[1]);return x(function(a){return[3,a,j,i,h,g]},k)}return[0,a]}function
-Fc(w){var
-gO=ip(w[3]),gP=gO?ip(w[4]):gO;if(gP){var
+g=a[5],h=a[4],i=a[3],j=a[2],k=gA(b,a[1]);return y(function(a){return[3,a,j,i,h,g]},k)}return[0,a]}function
+Fg(w){var
+gO=iq(w[3]),gP=gO?iq(w[4]):gO;if(gP){var
 ai=w[1];switch(ai[0]){case
 3:var
-gV=k(gt,ai[1]);if(gV)var
-lR=ai[2],dh=k(function(a){return gt(a[1])},lR);else
+gV=k(gu,ai[1]);if(gV)var
+lR=ai[2],dh=k(function(a){return gu(a[1])},lR);else
 var
 dh=gV;if(dh)var
 lS=ai[3],di=k(function(a){var
-b=gt(a[1]),c=b?ld(a[2]):b;return c?gu(a[2]):c},lS);else
+b=gu(a[1]),c=b?lf(a[2]):b;return c?gv(a[2]):c},lS);else
 var
 di=dh;if(di)var
 lT=ai[4],bQ=k(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return k(function(a){var
-b=ld(a);return b?gu(a):b},b)},lT);else
+b=lf(a);return b?gv(a):b},b)},lT);else
 var
 bQ=di;break;case
 7:var
 lU=ai[1],gW=k(function(a){var
-b=gt(a[1]);return b?gv(0,[0,a[2][1],[0,a[2][2],0]]):b},lU),bQ=gW?gv(0,[0,ai[5],[0,ai[6],0]]):gW;break;default:var
+b=gu(a[1]);return b?gw(0,[0,a[2][1],[0,a[2][2],0]]):b},lU),bQ=gW?gw(0,[0,ai[5],[0,ai[6],0]]):gW;break;default:var
 bQ=1}var
 df=bQ}else
 var
 df=gP;var
 el=0;if(df){var
-gQ=w[1],dg=7===gQ[0]?d(ao,gQ[1]):0,gR=function(c,b){var
-a=re(c);return a?k(function(a){var
-e=a[1],b=k(function(a){return lc(a[2])},e);if(b){var
-c=a[3];if(c)return gv(dg,rd(c[1]));var
+gQ=w[1],dg=7===gQ[0]?d(ap,gQ[1]):0,gR=function(c,b){var
+a=rg(c);return a?k(function(a){var
+e=a[1],b=k(function(a){return le(a[2])},e);if(b){var
+c=a[3];if(c)return gw(dg,rf(c[1]));var
 d=1}else
 var
 d=b;return d},b):a},gS=function(e,d,c,b){var
-a=re(e);return a?gv(dg,g(d,g(c,rd(b)))):a},o=w[1];switch(o[0]){case
+a=rg(e);return a?gw(dg,g(d,g(c,rf(b)))):a},o=w[1];switch(o[0]){case
 0:var
-k9=y(em,o[4]),k_=g(y(rb,o[3]),k9),k$=g(q$(o[2]),k_),aj=g(y(le,o[1]),k$);break;case
+k9=x(em,o[4]),k_=g(x(rd,o[3]),k9),k$=g(rb(o[2]),k_),aj=g(x(lg,o[1]),k$);break;case
 1:var
-dc=o[5],dd=o[3],la=y(em,o[6]),lb=dc?ra(dc[1]):dc,lg=g(lb,la),lk=g(q_(o[4]),lg),ll=dd?[0,dd[1],0]:dd,lm=g(ll,lk),aj=g(y(Dx,o[2]),lm);break;case
+dc=o[5],dd=o[3],la=x(em,o[6]),lb=dc?rc(dc[1]):dc,lc=g(lb,la),ld=g(ra(o[4]),lc),li=dd?[0,dd[1],0]:dd,lm=g(li,ld),aj=g(x(DB,o[2]),lm);break;case
 2:var
-ln=y(em,o[7]),lp=g(y(rb,o[6]),ln),lt=g(ra(o[5]),lp),lC=g(q_(o[4]),lt),lD=[0,o[3],lC],lE=o[2],aj=g(y(function(a){return y(fh,g(a[1],a[2]))},lE),lD);break;case
+ln=x(em,o[7]),lo=g(x(rd,o[6]),ln),lp=g(rc(o[5]),lo),lr=g(ra(o[4]),lp),lv=[0,o[3],lr],lE=o[2],aj=g(x(function(a){return x(fh,g(a[1],a[2]))},lE),lv);break;case
 3:var
-lF=y(em,o[7]),lG=g(o[6],lF),lH=g(o[5],lG),lI=o[2],aj=g(y(function(a){return fh(a[2])},lI),lH);break;case
+lF=x(em,o[7]),lG=g(o[6],lF),lH=g(o[5],lG),lI=o[2],aj=g(x(function(a){return fh(a[2])},lI),lH);break;case
 4:var
-lJ=y(em,o[3]),aj=[0,o[1],[0,o[2],lJ]];break;case
+lJ=x(em,o[3]),aj=[0,o[1],[0,o[2],lJ]];break;case
 5:var
-lK=y(em,o[4]),lL=g(ch(o[3]),lK),lM=g(ch(o[2]),lL),lN=g(y(le,o[1]),lM),aj=[0,o[5],lN];break;case
+lK=x(em,o[4]),lL=g(ch(o[3]),lK),lM=g(ch(o[2]),lL),lN=g(x(lg,o[1]),lM),aj=[0,o[5],lN];break;case
 6:var
 de=o[1],aj=de?fh(de[1]):de;break;default:var
-lO=y(em,o[4]),lP=g(q$(o[3]),lO),aj=g(y(le,o[2]),lP)}var
-gT=gv(dg,aj);if(gT){var
+lO=x(em,o[4]),lP=g(rb(o[3]),lO),aj=g(x(lg,o[2]),lP)}var
+gT=gw(dg,aj);if(gT){var
 ak=w[2];switch(ak[0]){case
 0:var
 br=gR(ak[1],ak[3]);break;case
@@ -8929,62 +8944,62 @@ b=w[1];switch(b[0]){case
 0:var
 Q=b[4],am=b[3],an=b[2],S=b[1],aJ=w[2];switch(aJ[0]){case
 0:var
-dH=aJ[3],hq=aJ[2],dI=aJ[1],g8=rR(f(S),am,Q),l2=aP(function(a){return L(cj(a))},Q);if(ag(cj,Q)){var
-g9=ly(0,S,an,am,l2,dI,hq,rS(d(L,g8),dH));if(g9){var
-l3=rS(g8,dH),l4=aP(cj,Q),l5=lj(an);return lz(0,d(li,S),0,l5,0,l4,dI,0,l3)}return g9}return ly(0,S,an,am,Q,dI,hq,dH);case
+dH=aJ[3],hq=aJ[2],dI=aJ[1],g8=rT(f(S),am,Q),l2=aN(function(a){return J(cj(a))},Q);if(ag(cj,Q)){var
+g9=lA(0,S,an,am,l2,dI,hq,rU(d(J,g8),dH));if(g9){var
+l3=rU(g8,dH),l4=aN(cj,Q),l5=ll(an);return lB(0,d(lk,S),0,l5,0,l4,dI,0,l3)}return g9}return lA(0,S,an,am,Q,dI,hq,dH);case
 1:var
-dK=aJ[4],dL=aJ[3],dM=aJ[2],g_=rR(f(S),am,Q),dw=aP(function(a){return L(cj(a))},Q);if(ag(cj,Q)){var
-l6=aP(cj,Q),l7=lj(an),g$=iC(0,d(li,S),0,l7,0,l6);if(g$)var
-dx=rT(d(L,g_),dK),l8=dx?lB(S,an,am,dw,dM,dL,dx[1]):dx,dz=l8;else
+dJ=aJ[4],dL=aJ[3],dM=aJ[2],g_=rT(f(S),am,Q),dw=aN(function(a){return J(cj(a))},Q);if(ag(cj,Q)){var
+l6=aN(cj,Q),l7=ll(an),g$=iD(0,d(lk,S),0,l7,0,l6);if(g$)var
+dx=rV(d(J,g_),dJ),l8=dx?lD(S,an,am,dw,dM,dL,dx[1]):dx,dy=l8;else
 var
-dz=g$;if(dz)var
-dB=dz;else{var
-ha=iD(S,am,dw,ir(S,an,am,dw));if(ha){var
-dC=rT(g_,dK);if(dC){var
-l9=dC[1],l_=aP(cj,Q),l$=lj(an);return lA(0,d(li,S),0,l$,0,l_,dM,dL,l9)}var
-dB=dC}else
+dy=g$;if(dy)var
+dA=dy;else{var
+ha=iE(S,am,dw,is(S,an,am,dw));if(ha){var
+dC=rV(g_,dJ);if(dC){var
+l9=dC[1],l_=aN(cj,Q),l$=ll(an);return lC(0,d(lk,S),0,l$,0,l_,dM,dL,l9)}var
+dA=dC}else
 var
-dB=ha}return dB}return lB(S,an,am,Q,dM,dL,dK);default:return 0}case
+dA=ha}return dA}return lD(S,an,am,Q,dM,dL,dJ);default:return 0}case
 1:var
 bs=b[6],bU=b[5],bV=b[4],bW=b[3],Z=b[2],U=b[1],aK=w[2];switch(aK[0]){case
-0:return lz(U,Z,bW,bV,bU,bs,aK[1],aK[2],aK[3]);case
+0:return lB(U,Z,bW,bV,bU,bs,aK[1],aK[2],aK[3]);case
 1:var
 aq=aK[4],dN=aK[3],hr=aK[2];if(typeof
 aq!=="number"&&3===aq[0]){var
 mk=aq[5],ml=aq[4],mm=aq[3],mn=aq[2],mo=aq[1],s=typeof
-U==="number"?U?E3:E4:iB(U[1]),gX=dO(as(U),s),dk=d(l,hr),a7=lh(U,Z,bW,bV,bU,bs),gY=rO(a7[2]),gZ=ls(Z,d(l,dN));if(gZ[2])return 0;var
+U==="number"?U?E7:E8:iC(U[1]),gX=dP(as(U),s),dk=d(l,hr),a7=lj(U,Z,bW,bV,bU,bs),gY=rQ(a7[2]),gZ=lu(Z,d(l,dN));if(gZ[2])return 0;var
 dn=da(mn);if(dn){var
 Y=dn[1],dq=da(mm);if(dq){var
-aI=dq[1],g0=gy(y(lu,Z),dN),g1=g0?iC(U,Z,bW,bV,bU,bs):g0;if(g1)var
+aI=dq[1],g0=gz(x(lw,Z),dN),g1=g0?iD(U,Z,bW,bV,bU,bs):g0;if(g1)var
 lW=as(U),dt=m(f(dk),lW);else
 var
 dt=g1;if(dt)var
-lX=f(Z),lY=ge(U),du=m(mo,et(ep(Z),lY,lX,0,bs));else
+lX=f(Z),lY=gf(U),du=m(mo,et(ep(Z),lY,lX,0,bs));else
 var
 du=dt;if(du){if(ep(Z))var
 lZ=X(e,gX),g2=g(X(gY,s),lZ);else
 var
 l1=X(W(gY),gX),g2=g(X(e,s),l1);var
-l0=iG(g2,Y,aI,ml,mk),al=aw(s,dk),bn=aR(ap(s,dk)),dv=gZ[1],N=a7[5],fE=kV(0,Y,aI),cE=qH(ap(s,fE)),cF=aw(s,fE),fF=a7[7],fG=fF?e$(j,a7[2],dv):fF,fH=fG?h1(j,a7,bn,al):fG,fI=fH?ae(s,yJ):fH;if(fI)var
-j8=P(s,f(al)),cG=m(f(Y),j8);else
+l0=iH(g2,Y,aI,ml,mk),al=aw(s,dk),bn=aS(ao(s,dk)),dv=gZ[1],N=a7[5],fE=kX(0,Y,aI),cD=qJ(ao(s,fE)),cF=aw(s,fE),fF=a7[7],fG=fF?e$(j,a7[2],dv):fF,fH=fG?h2(j,a7,bn,al):fG,fI=fH?ae(s,yN):fH;if(fI)var
+j5=P(s,f(al)),cG=m(f(Y),j5);else
 var
 cG=fI;var
-fJ=cG?ic(Y,aI):cG;if(fJ)var
-j9=id(ap(s,aI)),j_=id(ap(s,Y)),cH=kX(j,a7[4],j_,j9);else
+fJ=cG?id(Y,aI):cG;if(fJ)var
+j9=ie(ao(s,aI)),j_=ie(ao(s,Y)),cH=kZ(j,a7[4],j_,j9);else
 var
 cH=fJ;if(cH){var
 j$=aw(s,aI),ka=aw(s,Y);if(N)var
-fC=N[1],j7=0===fC[0]?yH:yI,fD=m(f(al),j7),fK=fD?qG(j,fC,ka,j$):fD;else
+fC=N[1],j4=0===fC[0]?yL:yM,fD=m(f(al),j4),fK=fD?qI(j,fC,ka,j$):fD;else
 var
 fK=m(f(al),0);var
 cI=fK}else
 var
 cI=cH;if(cI){var
-kb=ap(s,a5(bn)),ke=ap(s,aI),fL=fc(j,ap(s,Y),ke,kb);if(fL)var
+kb=ao(s,a5(bn)),kc=ao(s,aI),fL=fc(j,ao(s,Y),kc,kb);if(fL)var
 a2=fL;else
 if(N){var
-fN=qF(N[1]);if(fN)var
-kf=aw(s,aI),a2=fc(j,aw(s,Y),kf,al);else
+fN=qH(N[1]);if(fN)var
+kd=aw(s,aI),a2=fc(j,aw(s,Y),kd,al);else
 var
 a2=fN}else
 var
@@ -8994,22 +9009,22 @@ a2=cI;var
 fM=a2?k(function(b){var
 a=e_(N,al,bn,b),t=typeof
 a==="number"?0:0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]];if(0===b[0])var
-l=kY(b[1]);else
+l=k0(b[1]);else
 var
 c=b[1],p=[0,c[5],[0,c[6],0]],q=g(a5(c[4]),p),r=g(a5(c[3]),q),s=g(a5(c[2]),r),l=g(a5(c[1]),s);var
 m=fb(g(l,t));if(m)var
-u=kp(N,al,bn,b),v=1,e=k(function(a){return i(j,v,a)},u);else
+u=kr(N,al,bn,b),v=1,e=k(function(a){return i(j,v,a)},u);else
 var
 e=m;if(e){var
-d=e_(N,cF,cE,b),n=0;if(typeof
+d=e_(N,cF,cD,b),n=0;if(typeof
 d==="number"||!(1===d[0]))n=1;else{var
 o=0;if(typeof
 a!=="number"&&1===a[0]){var
 h=[0,[2,[4,d[1],a[1]],[4,d[2],a[2]]],0];o=1}if(!o)var
 h=0}if(n)var
 h=0;var
-w=g(kp(N,cF,cE,b),h),x=f(Y);return k(function(a){return kW(j,x,a)},w)}return e},dv):a2;return fM?ib(j,d(function(d){var
-b=e_(N,al,bn,d),c=e_(N,cF,cE,d);if(typeof
+w=g(kr(N,cF,cD,b),h),x=f(Y);return k(function(a){return kY(j,x,a)},w)}return e},dv):a2;return fM?ic(j,d(function(d){var
+b=e_(N,al,bn,d),c=e_(N,cF,cD,d);if(typeof
 c==="number")return[0,a,a];else{if(0===c[0]){if(typeof
 b!=="number"&&0===b[0])return[3,c[1],b[1]];return[0,a,a]}if(typeof
 b!=="number"&&1===b[0])return[3,[4,c[2],b[1]],[4,c[1],b[2]]];return[0,a,a]}},dv),l0):fM}var
@@ -9018,91 +9033,91 @@ var
 g3=dq;var
 g4=g3}else
 var
-g4=dn;return g4}return lA(U,Z,bW,bV,bU,bs,hr,dN,aq);default:return 0}case
+g4=dn;return g4}return lC(U,Z,bW,bV,bU,bs,hr,dN,aq);default:return 0}case
 2:var
-aL=b[7],aM=b[6],bY=b[5],bZ=b[4],b0=b[3],_=b[2],$=b[1],aO=w[2];switch(aO[0]){case
+aL=b[7],aM=b[6],bX=b[5],bZ=b[4],b0=b[3],_=b[2],$=b[1],aO=w[2];switch(aO[0]){case
 0:var
-hs=aO[3],ar=rm($,_,b0,bZ,bY,aM,aL),mp=ar[2],dP=G(a,bX(y(function(a){var
-b=bk(a[2]);return g(bk(a[1]),b)},mp))),mq=f(hs),mr=kz(dP,ar[2]),ms=kz(dP,ar[2]),dQ=eq(bM($),ms,mr,0,mq,hs);if(dQ){var
+hs=aO[3],ar=ro($,_,b0,bZ,bX,aM,aL),mp=ar[2],dO=G(a,bY(x(function(a){var
+b=bk(a[2]);return g(bk(a[1]),b)},mp))),mq=f(hs),mr=kB(dO,ar[2]),ms=kB(dO,ar[2]),dQ=eq(bM($),ms,mr,0,mq,hs);if(dQ){var
 ht=dQ[1];if(ht[2])return 0;var
-hu=rH($,_,b0,bZ,bY,aM,aL);if(hu){var
-mt=ht[1],mu=f(_),mv=et(0,lv($),mu,aM,aL),mw=iF(aO[2]),mx=aO[1],iZ=ar[2],eu=k(function(a){var
-b=p1(j,a[1]);return b?p1(j,a[2]):b},iZ);if(eu)var
-i0=j4(ar[4]),cb=c2(j,ar[4],i0);else
+hu=rJ($,_,b0,bZ,bX,aM,aL);if(hu){var
+mt=ht[1],mu=f(_),mv=et(0,lx($),mu,aM,aL),mw=iG(aO[2]),mx=aO[1],iZ=ar[2],eu=k(function(a){var
+b=p3(j,a[1]);return b?p3(j,a[2]):b},iZ);if(eu)var
+i0=j6(ar[4]),cb=c2(j,ar[4],i0);else
 var
 cb=eu;if(cb)var
-i1=hY(ar[5]),cc=k(function(a){return gg(j,a)},i1);else
+i1=hZ(ar[5]),cc=k(function(a){return gh(j,a)},i1);else
 var
-cc=cb;return cc?xH(mx,mw,mv,ar,dP,mt):cc}var
+cc=cb;return cc?xL(mx,mw,mv,ar,dO,mt):cc}var
 hv=hu}else
 var
 hv=dQ;return hv;case
 1:var
-aa=aO[4],hw=aO[3],aQ=d(l,aO[2]),r=iB($),hx=rC(_,d(l,hw));if(hx[2])return 0;var
-t=hx[1],hy=gy(y(function(a){return g(a[1],a[2])},_),hw),hz=hy?rH($,_,b0,bZ,bY,aM,aL):hy;if(hz){var
-p=rm($,_,b0,bZ,bY,aM,aL);if(typeof
+aa=aO[4],hw=aO[3],aQ=d(l,aO[2]),r=iC($),hx=rE(_,d(l,hw));if(hx[2])return 0;var
+t=hx[1],hy=gz(x(function(a){return g(a[1],a[2])},_),hw),hz=hy?rJ($,_,b0,bZ,bX,aM,aL):hy;if(hz){var
+p=ro($,_,b0,bZ,bX,aM,aL);if(typeof
 aa!=="number")switch(aa[0]){case
 2:var
-hF=d(l,aa[1]),hG=aw(r,hF),hJ=aR(ap(r,hF)),hK=aw(r,aQ),hL=aR(ap(r,aQ)),ev=e5(j,p,t,hL,hK),ew=ev?e5(j,p,t,hJ,hG):ev;if(ew)var
+hF=d(l,aa[1]),hG=aw(r,hF),hH=aS(ao(r,hF)),hK=aw(r,aQ),hL=aS(ao(r,aQ)),ev=e5(j,p,t,hL,hK),ew=ev?e5(j,p,t,hH,hG):ev;if(ew)var
 i2=bM(p[1]),ce=m(f(t),i2);else
 var
 ce=ew;if(ce){var
 ex=function(b,a){var
-c=p[5],e=p[3],f=p[1];return d(function(d){return kd(f,e,c,a,b,d)},t)},i3=ex(hJ,hG),i4=ex(hL,hK);return kH(j,bM(p[1]),i4,i3)}return ce;case
+c=p[5],e=p[3],f=p[1];return d(function(d){return kf(f,e,c,a,b,d)},t)},i3=ex(hH,hG),i4=ex(hL,hK);return kJ(j,bM(p[1]),i4,i3)}return ce;case
 3:var
 dT=da(aa[2]);if(dT){var
 at=dT[1],dU=da(aa[3]);if(dU){var
-aS=dU[1],mz=p[2],mA=G(a,bX(y(function(a){var
-b=bk(a[2]);return g(bk(a[1]),b)},mz))),mB=f(_),mC=et(0,lv($),mB,aM,aL),hM=m(aa[1],mC);if(hM){var
-mD=aa[5],mE=aa[4],mF=X(W(mA),dO(f(aQ),r)),mG=iG(g(X(e,r),mF),at,aS,mE,mD),a8=aw(r,aQ),b3=aR(ap(r,aQ)),a1=p[5],fu=kV(0,at,aS),fv=p[7],fw=fv?e5(j,p,t,b3,a8):fv,fx=fw?ae(r,yE):fw;if(fx)var
+aR=dU[1],mz=p[2],mA=G(a,bY(x(function(a){var
+b=bk(a[2]);return g(bk(a[1]),b)},mz))),mB=f(_),mC=et(0,lx($),mB,aM,aL),hM=m(aa[1],mC);if(hM){var
+mD=aa[5],mE=aa[4],mF=X(W(mA),dP(f(aQ),r)),mG=iH(g(X(e,r),mF),at,aR,mE,mD),a8=aw(r,aQ),b3=aS(ao(r,aQ)),a1=p[5],fu=kX(0,at,aR),fv=p[7],fw=fv?e5(j,p,t,b3,a8):fv,fx=fw?ae(r,yI):fw;if(fx)var
 jS=P(r,f(a8)),cy=m(f(at),jS);else
 var
 cy=fx;if(cy)var
-jT=0===a1[0]?yF:yG,cA=m(f(a8),jT);else
+jT=0===a1[0]?yJ:yK,cz=m(f(a8),jT);else
 var
-cA=cy;var
-fy=cA?ic(at,aS):cA;if(fy)var
-jX=id(ap(r,aS)),jZ=id(ap(r,at)),cB=kX(j,p[4],jZ,jX);else
+cz=cy;var
+fy=cz?id(at,aR):cz;if(fy)var
+jU=ie(ao(r,aR)),jV=ie(ao(r,at)),cB=kZ(j,p[4],jV,jU);else
 var
 cB=fy;if(cB)var
-j0=aw(r,aS),cC=qG(j,a1,aw(r,at),j0);else
+jZ=aw(r,aR),cC=qI(j,a1,aw(r,at),jZ);else
 var
 cC=cB;if(cC){var
-j1=ap(r,a5(b3)),j2=ap(r,aS),fz=fc(j,ap(r,at),j2,j1);if(fz)var
+j1=ao(r,a5(b3)),j2=ao(r,aR),fz=fc(j,ao(r,at),j2,j1);if(fz)var
 bl=fz;else{var
-fB=qF(a1);if(fB)var
-j3=aw(r,aS),bl=fc(j,aw(r,at),j3,a8);else
+fB=qH(a1);if(fB)var
+j3=aw(r,aR),bl=fc(j,aw(r,at),j3,a8);else
 var
 bl=fB}}else
 var
 bl=cC;var
 fA=bl?k(function(a){var
-c=a5(a[2]),b=fb(g(a5(a[1]),c));return b?fb([0,kZ(a1,a8,b3,a),0]):b},t):bl;return fA?ib(j,d(function(a){var
-b=[6,kZ(a1,a8,b3,a)],c=qH(ap(r,fu));return[3,[6,kZ(a1,aw(r,fu),c,a)],b]},t),mG):fA}var
+c=a5(a[2]),b=fb(g(a5(a[1]),c));return b?fb([0,k1(a1,a8,b3,a),0]):b},t):bl;return fA?ic(j,d(function(a){var
+b=[6,k1(a1,a8,b3,a)],c=qJ(ao(r,fu));return[3,[6,k1(a1,aw(r,fu),c,a)],b]},t),mG):fA}var
 hN=hM}else
 var
 hN=dU;var
 hO=hN}else
 var
 hO=dT;return hO}var
-my=f(_),dR=lw(0,lv($),my,aM,aL,aa);if(dR){var
-bt=dR[1],z=aR(ap(r,aQ)),u=aw(r,aQ),eo=e5(j,p,t,z,u);if(eo)var
+my=f(_),dR=ly(0,lx($),my,aM,aL,aa);if(dR){var
+bt=dR[1],z=aS(ao(r,aQ)),u=aw(r,aQ),eo=e5(j,p,t,z,u);if(eo)var
 af=p[5],er=p[3],es=p[1],iW=p[6],b$=function(a){var
-b=cd(af,u,z,a);return v(cd(af,u,z,a),b)},iP=d(function(a){return[0,kd(es,er,af,u,z,a)]},t),iQ=d(b$,t),iR=function(a){var
-b=dy(af,u,a);return O(function(b,a){return[2,b,a]},z,b)},iS=d(function(a){var
-b=[6,b$(a)],c=cd(af,u,z,a),d=dy(af,u,a[2]);return[0,[0,[0,O(function(b,a){return[2,b,a]},z,d),c],b]]},t),iT=d(function(a){return 0},t),iU=d(function(a){return[0,[6,b$(a)]]},t),iV=[0,d(function(c){var
-b=aG(cd(af,u,z,c));return kc(es,b,T([5,[0,a,a],er],cz(dy(af,u,c[2]),b)))},t),iU,iT,iS,iR,iQ,iP],iX=bM(p[1]),iY=2<=p[1]?wu:wv,dS=j6(j,iY,iX,iV,iW,bt);else
+b=cd(af,u,z,a);return v(cd(af,u,z,a),b)},iP=d(function(a){return[0,kf(es,er,af,u,z,a)]},t),iQ=d(b$,t),iR=function(a){var
+b=dz(af,u,a);return O(function(b,a){return[2,b,a]},z,b)},iS=d(function(a){var
+b=[6,b$(a)],c=cd(af,u,z,a),d=dz(af,u,a[2]);return[0,[0,[0,O(function(b,a){return[2,b,a]},z,d),c],b]]},t),iT=d(function(a){return 0},t),iU=d(function(a){return[0,[6,b$(a)]]},t),iV=[0,d(function(c){var
+b=aH(cd(af,u,z,c));return ke(es,b,T([5,[0,a,a],er],cA(dz(af,u,c[2]),b)))},t),iU,iT,iS,iR,iQ,iP],iX=bM(p[1]),iY=2<=p[1]?wy:wz,dS=j8(j,iY,iX,iV,iW,bt);else
 var
 dS=eo;if(dS)var
 hA=dS;else{if(typeof
 bt!=="number"&&0===bt[0]){var
 b1=bt[2];if(b1){if(b1[2])return 0;var
 b2=b1[1],hD=bt[1],bg=p[1],fe=e5(j,p,t,z,u),en=0;if(fe){var
-jM=p[6],jN=2<=bg?yu:yv,cv=d7(j,jN,hD,jM),b8=0;if(cv){var
+jM=p[6],jN=2<=bg?yy:yz,cv=d7(j,jN,hD,jM),b8=0;if(cv){var
 a0=cv[1][1],b9=0;if(typeof
 a0!=="number"&&15===a0[0]){var
 cw=F(t,a0[1]);if(cw){var
-bh=f6(b2),fi=a0[3],bE=cw[1],bF=p[5],cx=p[3],jO=a0[4],jP=a0[2],eZ=kd(bg,cx,bF,u,z,bE),e0=cd(bF,u,z,bE),cu=bj(bh,bh),e1=[4,[4,jP,[6,bj(eZ,eZ)]],cu],be=cd(bF,u,z,bE),cs=dy(bF,u,bE[2]),bf=T([5,[0,a,a],cx],kT(bg,bh)),jE=cz(bf,cs),jF=kS(bg,bh),ct=O(function(b,a){return[2,b,a]},jF,jE),eY=v(be,ct),jG=v(bf,bf),jH=[4,v(be,cs),jG],jI=v(cs,bf),jJ=[3,[4,v(be,bf),jI],jH],jK=[5,[4,eY,eY],v(be,be)],e2=[4,[4,fi,fi],[2,[3,v(ct,ct),jK],jJ]],e3=[4,[4,jO,cu],[6,v(e0,e0)]],jL=bM(bg),e4=m(f(bh),jL),e6=e4?i(j,1,cu):e4,e7=e6?i(j,1,cx):e6,iO=0;if(e7){var
+bh=f7(b2),fi=a0[3],bE=cw[1],bF=p[5],cx=p[3],jO=a0[4],jP=a0[2],eZ=kf(bg,cx,bF,u,z,bE),e0=cd(bF,u,z,bE),cu=bj(bh,bh),e1=[4,[4,jP,[6,bj(eZ,eZ)]],cu],be=cd(bF,u,z,bE),cs=dz(bF,u,bE[2]),bf=T([5,[0,a,a],cx],kV(bg,bh)),jE=cA(bf,cs),jF=kU(bg,bh),ct=O(function(b,a){return[2,b,a]},jF,jE),eY=v(be,ct),jG=v(bf,bf),jH=[4,v(be,cs),jG],jI=v(cs,bf),jJ=[3,[4,v(be,bf),jI],jH],jK=[5,[4,eY,eY],v(be,be)],e2=[4,[4,fi,fi],[2,[3,v(ct,ct),jK],jJ]],e3=[4,[4,jO,cu],[6,v(e0,e0)]],jL=bM(bg),e4=m(f(bh),jL),e6=e4?i(j,1,cu):e4,e7=e6?i(j,1,cx):e6,iO=0;if(e7){var
 e8=i(j,1,[3,[2,e1,e2],e3]);if(e8)var
 e9=e8;else{var
 bu=i(j,1,[3,[3,e1,e2],e3]);b8=1;b9=1;iO=1}}else
@@ -9117,16 +9132,16 @@ fg=ff;en=1}}else{var
 fg=fe;en=1}if(en)var
 bu=fg;if(!bu){var
 fP=p[1],cJ=p[5],fQ=e5(j,p,t,z,u);if(fQ){var
-kg=p[6],kh=2<=fP?yS:yT,cK=d7(j,kh,hD,kg);if(cK){var
+kg=p[6],kh=2<=fP?yW:yX,cK=d7(j,kh,hD,kg);if(cK){var
 bm=cK[1][1];if(typeof
 bm!=="number"&&16===bm[0]){var
 fT=bm[1],fU=i(j,0,fT);if(fU)var
 ki=f(p[2]),cL=m(f(b2),ki);else
 var
 cL=fU;if(cL){var
-kj=p[2],kk=M(M(t,ie(b2,d(function(a){var
-b=bO(a[2]);return qN(cd(cJ,u,z,[0,bO(a[1]),b]))},kj),fT)),b2),kl=d(function(e){var
-c=e[1],d=c[2],b=c[1],f=dy(cJ,u,b[2]),g=b[1],h=O(function(b,a){return[3,b,a]},z,g),i=[2,d,qN(cd(cJ,u,z,b))];return[0,ei([5,[0,e[2],a],i]),d,h,f]},kk);return qM(j,[0,fP],bm[2],bm[3],kl)}return cL}var
+kj=p[2],kk=M(M(t,ig(b2,d(function(a){var
+b=bO(a[2]);return qP(cd(cJ,u,z,[0,bO(a[1]),b]))},kj),fT)),b2),kl=d(function(e){var
+c=e[1],d=c[2],b=c[1],f=dz(cJ,u,b[2]),g=b[1],h=O(function(b,a){return[3,b,a]},z,g),i=[2,d,qP(cd(cJ,u,z,b))];return[0,ei([5,[0,e[2],a],i]),d,h,f]},kk);return qO(j,[0,fP],bm[2],bm[3],kl)}return cL}var
 fR=0}else
 var
 fR=cK;var
@@ -9144,44 +9159,44 @@ hC=hB}else
 var
 hC=hz;return hC;default:return 0}case
 3:var
-au=b[7],bv=b[6],bx=b[5],ay=b[4],dV=b[3],aT=b[2],aU=b[1],aV=w[2];switch(aV[0]){case
+au=b[7],bw=b[6],bx=b[5],ay=b[4],dV=b[3],aT=b[2],aU=b[1],aV=w[2];switch(aV[0]){case
 0:var
-hP=aV[3],hQ=iE(kP(lf(aU,aT,dV,ay,bx,bv,au)[1])),mH=f(hP),dX=eq(f(aU),hQ,hQ,0,mH,hP);if(dX){var
-hR=dX[1];if(hR[2])return 0;var
-hT=rI(aU,aT,ay,bx,bv,au);if(hT){var
-mI=hR[1],ab=lf(aU,aT,dV,ay,bx,bv,au),mJ=et(0,Fd,f(ay),0,au),hU=iF(aV[2]),aW=aV[1],eQ=qt(ab[1]);if(eQ)var
+hP=aV[3],hQ=iF(kR(lh(aU,aT,dV,ay,bx,bw,au)[1])),mH=f(hP),dW=eq(f(aU),hQ,hQ,0,mH,hP);if(dW){var
+hR=dW[1];if(hR[2])return 0;var
+hS=rK(aU,aT,ay,bx,bw,au);if(hS){var
+mI=hR[1],ab=lh(aU,aT,dV,ay,bx,bw,au),mJ=et(0,Fh,f(ay),0,au),hU=iG(aV[2]),aW=aV[1],eQ=qv(ab[1]);if(eQ)var
 jq=ab[1][2],cq=k(function(a){return bI(j,a[2][1],a[2][2])},jq);else
 var
 cq=eQ;if(cq)var
 jr=ab[2],cr=k(function(a){return bI(j,a[1],a[2])},jr);else
 var
 cr=cq;if(cr){var
-B=ab[1],ba=f(B[1]),bC=ab[3],cf=f(B[2]),ey=P(cf,f(gi(d(aH,B[3])))),i5=B[3],ez=qp(h_(B),i5,cf),H=kN(ba,ez,B[4],ey),i6=kL(ez,B[4],ey),i7=B[3],eA=g(kK(h_(B),i7,cf),i6),eB=f(kP(B)),eC=kO(B[2]),eD=d(function(a){return a[4]},H),i8=g(eA,dA(function(b,a){if(typeof
+B=ab[1],ba=f(B[1]),bC=ab[3],cf=f(B[2]),ey=P(cf,f(gj(d(aE,B[3])))),i5=B[3],ez=qr(h$(B),i5,cf),H=kP(ba,ez,B[4],ey),i6=kN(ez,B[4],ey),i7=B[3],eA=g(kM(h$(B),i7,cf),i6),eB=f(kR(B)),eC=kQ(B[2]),eD=d(function(a){return a[4]},H),i8=g(eA,dB(function(b,a){if(typeof
 a!=="number"&&16===a[0]){var
-c=eg(H);return p6(eC,d(function(a){return a[3]},H),c,eD)}return qk(H,b,a)},0,e,eB,bC)),i9=g(bK(eg(H)),i8),eE=g(bK(fa(H)),i9),eF=dm(eE),eG=dl(eF),aA=cT(eG),i_=function(c,b){if(typeof
+c=eg(H);return p8(eC,d(function(a){return a[3]},H),c,eD)}return qm(H,b,a)},0,e,eB,bC)),i9=g(bK(eg(H)),i8),eE=g(bK(fa(H)),i9),eF=dm(eE),eG=dl(eF),aA=cT(eG),i_=function(c,b){if(typeof
 b!=="number"&&16===b[0]){var
 f=B[4];if(k(function(a){return 0===a[0]?0:1},f)){var
-g=b[2],h=b[1],i=[0,J(aW,a)],j=eg(H);return p7(aW,aA,ba,ba,ye,0,eC,e,d(function(a){return a[3]},H),j,eD,i,h,g)}return yf}return ql(aW,aA,H,0,e,c,b)},eH=m(f(ab[2]),ba);if(eH)var
+g=b[2],h=b[1],i=[0,K(aW,a)],j=eg(H);return p9(aW,aA,ba,ba,yi,0,eC,e,d(function(a){return a[3]},H),j,eD,i,h,g)}return yj}return qn(aW,aA,H,0,e,c,b)},eH=m(f(ab[2]),ba);if(eH)var
 i$=B[4],ck=k(function(a){return 0===a[0]?m(f(a[1]),ba):1},i$);else
 var
 ck=eH;var
 eI=ck?k(function(a){var
-b=n(e);return a3(q(h(aA,a),eG,b),a)},eE):ck,eJ=eI?ag(qm,bC):eI;if(eJ){var
-eK=L(ab[4]);if(eK)var
+b=n(e);return a3(q(h(aA,a),eG,b),a)},eE):ck,eJ=eI?ag(qo,bC):eI;if(eJ){var
+eK=J(ab[4]);if(eK)var
 bD=eK;else
 var
 jp=B[4],bD=k(function(a){return 0===a[0]?0:1},jp)}else
 var
 bD=eJ;if(bD){var
-ja=kP(B),cl=ad(d(function(a){return av(aW,a)},ja));if(cl){var
-jb=0,jc=y(function(a){return ga(jb,e,a)},bC),cm=ad(d(function(a){return hS(aW,a)},jc));if(cm){var
+ja=kR(B),cl=ad(d(function(a){return av(aW,a)},ja));if(cl){var
+jb=0,jc=x(function(a){return gb(jb,e,a)},bC),cm=ad(d(function(a){return hT(aW,a)},jc));if(cm){var
 jd=ab[2],cn=ad(d(function(a){return av(aW,[0,a,e])},jd));if(cn){var
-co=ad(dA(i_,0,e,eB,bC));if(co){var
+co=ad(dB(i_,0,e,eB,bC));if(co){var
 eL=co[1];if(ab[4])var
-je=hU[2],jf=hU[1],jg=eg(H),cp=j5(mJ,eL,[8,h(aC(aA),jg),jf,je]);else
+je=hU[2],jf=hU[1],jg=eg(H),cp=j7(mJ,eL,[8,h(aC(aA),jg),jf,je]);else
 var
 cp=eL;var
-jh=jV(cp),ji=cn[1],jj=function(a){return 0},jk=g(cl[1],cm[1]),jl=d(aA,eA),jm=eg(H),jn=h(aC(aA),jm),jo=fa(H);return fm(jU(aW,eF,h(aC(aA),jo),jn,jl,jk,cp,jj),ji,jh,mI)}var
+jh=jX(cp),ji=cn[1],jj=function(a){return 0},jk=g(cl[1],cm[1]),jl=d(aA,eA),jm=eg(H),jn=h(aC(aA),jm),jo=fa(H);return fm(jW(aW,eF,h(aC(aA),jo),jn,jl,jk,cp,jj),ji,jh,mI)}var
 eM=co}else
 var
 eM=cn;var
@@ -9194,45 +9209,45 @@ eO=cl;var
 eP=eO}else
 var
 eP=bD;return eP}return cr}var
-hV=hT}else
+hV=hS}else
 var
-hV=dX;return hV;case
+hV=dW;return hV;case
 1:var
-ac=aV[4],hW=aV[3],b4=aV[2],A=lf(aU,aT,dV,ay,bx,bv,au),mK=d(l,hW),hX=bw(d(aH,aT),mK);if(hX[2])return 0;var
-E=hX[1],hZ=gy(d(aH,aT),hW),h0=hZ?rI(aU,aT,ay,bx,bv,au):hZ,h2=h0?qt(A[1]):h0;if(h2)var
+ac=aV[4],hW=aV[3],b4=aV[2],A=lh(aU,aT,dV,ay,bx,bw,au),mK=d(l,hW),hX=bv(d(aE,aT),mK);if(hX[2])return 0;var
+E=hX[1],hY=gz(d(aE,aT),hW),h0=hY?rK(aU,aT,ay,bx,bw,au):hY,h1=h0?qv(A[1]):h0;if(h1)var
 mL=A[2],dY=k(function(a){return bI(j,a[1],a[2])},mL);else
 var
-dY=h2;if(dY){if(typeof
+dY=h1;if(dY){if(typeof
 ac!=="number")switch(ac[0]){case
 2:var
-d2=d(l,ac[1]),d3=d(l,b4),aB=A[1],bG=h$(aB),jQ=qw(aB),fj=d(function(a){return a[3]},jQ),fk=function(a){var
-b=qx(aB,E);function
-c(c){return eh(a,b,c)}return d(function(a){return d(c,a)},fj)},fl=cg(j,d(aH,aB[2]),E),fn=fl?cg(j,A[2],d3):fl,fo=fn?cg(j,A[2],d2):fn,fp=fo?m(f(d3),bG):fo,fq=fp?m(f(d2),bG):fp,fr=fq?qy(aB,aB[4]):fq,fs=fr?m(f(aB[4]),bG):fr,ft=fs?k(function(a){return k(kR,a)},fj):fs;if(ft){var
-jR=fk(d2);return kH(j,bG,fk(d3),jR)}return ft;case
+d2=d(l,ac[1]),d3=d(l,b4),aB=A[1],bG=ia(aB),jQ=qy(aB),fj=d(function(a){return a[3]},jQ),fk=function(a){var
+b=qz(aB,E);function
+c(c){return eh(a,b,c)}return d(function(a){return d(c,a)},fj)},fl=cg(j,d(aE,aB[2]),E),fn=fl?cg(j,A[2],d3):fl,fo=fn?cg(j,A[2],d2):fn,fp=fo?m(f(d3),bG):fo,fq=fp?m(f(d2),bG):fp,fr=fq?qA(aB,aB[4]):fq,fs=fr?m(f(aB[4]),bG):fr,ft=fs?k(function(a){return k(kT,a)},fj):fs;if(ft){var
+jR=fk(d2);return kJ(j,bG,fk(d3),jR)}return ft;case
 3:var
 d5=da(ac[2]);if(d5){var
 a9=d5[1],d6=da(ac[3]);if(d6){var
-bA=d6[1],mN=et(0,Ff,f(ay),0,au),h6=m(ac[1],mN);if(h6){var
-mO=ac[5],mP=ac[4],mQ=iG(X(e,f(aU)),a9,bA,mP,mO),bB=d(l,b4),aE=A[1],gd=kV(0,a9,bA),gf=A[4],gh=gf?cg(j,d(aH,aE[2]),E):gf,gj=gh?cg(j,A[2],bB):gh;if(gj)var
+bA=d6[1],mN=et(0,Fj,f(ay),0,au),h6=m(ac[1],mN);if(h6){var
+mO=ac[5],mP=ac[4],mQ=iH(X(e,f(aU)),a9,bA,mP,mO),bB=d(l,b4),aF=A[1],gd=kX(0,a9,bA),ge=A[4],gg=ge?cg(j,d(aE,aF[2]),E):ge,gi=gg?cg(j,A[2],bB):gg;if(gi)var
 kv=d(bc,a9),cU=cg(j,A[2],kv);else
 var
-cU=gj;if(cU)var
+cU=gi;if(cU)var
 kw=d(bc,bA),cW=cg(j,A[2],kw);else
 var
 cW=cU;var
-gk=cW?ic(a9,bA):cW,gl=gk?fc(j,a9,bA,bB):gk,gm=gl?fb(g(E,bB)):gl;if(gm)var
-kx=aE[3],cY=k(function(a){return go(a[2])},kx);else
+gk=cW?id(a9,bA):cW,gl=gk?fc(j,a9,bA,bB):gk,gm=gl?fb(g(E,bB)):gl;if(gm)var
+kx=aF[3],cY=k(function(a){return gp(a[2])},kx);else
 var
 cY=gm;if(cY){var
-cZ=k3(aE[4]);if(cZ){var
-bN=cZ[1],gp=k(go,bN);if(gp)var
-ky=1,c0=qP(function(a){return i(j,ky,a)},aE,E,bB,bN);else
+cZ=k5(aF[4]);if(cZ){var
+bN=cZ[1],gn=k(gp,bN);if(gn)var
+ky=1,c0=qR(function(a){return i(j,ky,a)},aF,E,bB,bN);else
 var
-c0=gp;if(c0)var
-kA=f(a9),c1=qP(function(a){return kW(j,kA,a)},aE,E,gd,bN);else
+c0=gn;if(c0)var
+kz=f(a9),c1=qR(function(a){return kY(j,kz,a)},aF,E,gd,bN);else
 var
-c1=c0;if(c1)return ib(j,d(function(a){var
-b=a6(gn(aE,E,bB),a);return[3,a6(gn(aE,E,gd),a),b]},bN),mQ);var
+c1=c0;if(c1)return ic(j,d(function(a){var
+b=a6(go(aF,E,bB),a);return[3,a6(go(aF,E,gd),a),b]},bN),mQ);var
 gq=c1}else
 var
 gq=cZ;var
@@ -9245,54 +9260,54 @@ h7=d6;var
 h8=h7}else
 var
 h8=d5;return h8}var
-dZ=lw(0,Fe,f(ay),0,au,ac);if(dZ){var
-by=dZ[1],aX=d(l,b4),K=A[1],eS=h$(K),bb=qw(K),jy=qu(K),jz=K[4],jA=kL(qv(K),jz,jy),jB=f(K[2]),jC=K[3],eR=g(kK(h_(K),jC,jB),jA),bd=qx(K,E),eT=cg(j,d(aH,K[2]),E),eU=eT?cg(j,A[2],aX):eT,eV=eU?m(f(aX),eS):eU,eW=eV?qy(K,K[4]):eV,eX=eW?k(kR,g(y(yj,bb),eR)):eW;if(eX)var
+dZ=ly(0,Fi,f(ay),0,au,ac);if(dZ){var
+by=dZ[1],aX=d(l,b4),L=A[1],eS=ia(L),bb=qy(L),jy=qw(L),jz=L[4],jA=kN(qx(L),jz,jy),jB=f(L[2]),jC=L[3],eR=g(kM(h$(L),jC,jB),jA),bd=qz(L,E),eT=cg(j,d(aE,L[2]),E),eU=eT?cg(j,A[2],aX):eT,eV=eU?m(f(aX),eS):eU,eW=eV?qA(L,L[4]):eV,eX=eW?k(kT,g(x(yn,bb),eR)):eW;if(eX)var
 jD=A[3],js=d(function(a){var
-b=a[1];return[0,d(function(a){return eh(aX,bd,a)},b)]},bb),jt=y(function(c){var
+b=a[1];return[0,d(function(a){return eh(aX,bd,a)},b)]},bb),jt=x(function(c){var
 a=c[1];switch(a[0]){case
 7:var
 b=eh(aX,bd,a[2]);return[0,[4,b,b],0];case
 9:return[0,eh(aX,bd,a[1]),0];default:return 0}},eR),ju=function(a){return a},jv=0,jw=d(function(a){return 0},bb),jx=d(function(b){var
 a=b[4];if(typeof
-a!=="number"&&0===a[0])return[0,eh(aX,bd,a[1])];return 0},bb),d0=j6(j,yk,eS,[0,d(function(a){var
+a!=="number"&&0===a[0])return[0,eh(aX,bd,a[1])];return 0},bb),d0=j8(j,yo,eS,[0,d(function(a){var
 b=a[3];return d(function(a){return eh(aX,bd,a)},b)},bb),jx,jw,jv,ju,jt,js],jD,by);else
 var
 d0=eX;if(d0)var
 h3=d0;else{if(typeof
 by!=="number"&&0===by[0]){var
 b5=by[2];if(b5){if(b5[2])return 0;var
-d1=b5[1],mM=by[1],bz=d(l,b4),aD=A[1],bH=f(aD[1]),fV=cg(j,d(aH,aD[2]),E),fW=fV?cg(j,A[2],bz):fV,fX=fW?m(f(bz),bH):fW,fY=fX?dF(g(E,bz)):fX;if(fY)var
-km=aD[3],cM=k(function(a){return go(a[2])},km);else
+d1=b5[1],mM=by[1],bz=d(l,b4),aD=A[1],bH=f(aD[1]),fV=cg(j,d(aE,aD[2]),E),fW=fV?cg(j,A[2],bz):fV,fX=fW?m(f(bz),bH):fW,fY=fX?dG(g(E,bz)):fX;if(fY)var
+km=aD[3],cM=k(function(a){return gp(a[2])},km);else
 var
 cM=fY;if(cM){var
-cN=d7(j,yV,mM,A[3]);if(cN){var
+cN=d7(j,yZ,mM,A[3]);if(cN){var
 bJ=cN[1][1];if(typeof
 bJ!=="number"&&16===bJ[0]){var
-f2=bJ[2],f3=bJ[1],cO=k3(aD[4]);if(cO){var
-bL=cO[1],cP=ig(aF(c5,f2));if(cP){var
-kn=cP[1],f4=i(j,1,f2),f7=f4?i(j,0,f3):f4;if(f7)var
+f2=bJ[2],f3=bJ[1],cO=k5(aD[4]);if(cO){var
+bL=cO[1],cP=ih(aG(c5,f2));if(cP){var
+kn=cP[1],f4=i(j,1,f2),f5=f4?i(j,0,f3):f4;if(f5)var
 ko=f(bL),cQ=m(f(d1),ko);else
 var
-cQ=f7;var
-f8=cQ?k(go,bL):cQ;if(f8){var
-kq=aD[2],kr=gn(aD,d(function(a){return ej(a[2])},kq),bz),f9=ie(d1,d(function(a){return a6(kr,a)},bL),f3),f_=dF(f9);if(f_){var
-ks=M(bz,ax(0,bH)),kt=gn(aD,E,d(function(a){var
-b=cD(a[2],kn);return[2,a[1],b]},ks)),ku=M(M(d(function(a){return a6(kt,a)},bL),f9),d1);return k1(j,bH,bH,fd(function(b){return[4,[0,b[2],a],[3,b[1][1],b[1][2]]]},ku))}var
+cQ=f5;var
+f8=cQ?k(gp,bL):cQ;if(f8){var
+kp=aD[2],kq=go(aD,d(function(a){return ej(a[2])},kp),bz),f9=ig(d1,d(function(a){return a6(kq,a)},bL),f3),f_=dG(f9);if(f_){var
+ks=M(bz,ax(0,bH)),kt=go(aD,E,d(function(a){var
+b=cE(a[2],kn);return[2,a[1],b]},ks)),ku=M(M(d(function(a){return a6(kt,a)},bL),f9),d1);return k3(j,bH,bH,fd(function(b){return[4,[0,b[2],a],[3,b[1][1],b[1][2]]]},ku))}var
 f$=f_}else
 var
 f$=f8;var
-gb=f$}else
+ga=f$}else
 var
-gb=cP;var
-gc=gb}else
+ga=cP;var
+gc=ga}else
 var
 gc=cO;return gc}var
 fZ=0}else
 var
 fZ=cN;var
-f1=fZ}else
+f0=fZ}else
 var
-f1=cM;return f1}return b5}var
+f0=cM;return f0}return b5}var
 h3=0}var
 h4=h3}else
 var
@@ -9303,28 +9318,28 @@ h5=dY;return h5;default:return 0}case
 4:var
 aY=b[3],a_=b[2],b6=b[1],aZ=w[2];switch(aZ[0]){case
 0:var
-mR=aZ[3],mS=aZ[2],mT=aZ[1],hb=dJ(l(b6));if(hb){var
-dD=ro(aY);if(dD){var
+mR=aZ[3],mS=aZ[2],mT=aZ[1],hb=dK(l(b6));if(hb){var
+dD=rq(aY);if(dD){var
 hc=dD[1],bo=hc[2],hd=l(bo),he=l(hc[1]),gB=i(j,1,l(a_)),gC=gB?i(j,1,[3,hd,[0,a,a]]):gB,gD=gC?i(j,1,he):gC,hf=gD?i(j,0,[3,[5,[0,a,a],hd],he]):gD,hg=hf?k(function(a){var
-b=rk(0,0,Fb,a);if(b)var
+b=rm(0,0,Ff,a);if(b)var
 c=b;else{var
-d=c_(a);if(d)return aN(0,0,a);var
+d=c_(a);if(d)return aP(0,0,a);var
 c=d}return c},aY):hf,hh=hg?k(function(c){if(1===c[1]){var
 b=c[4];if(typeof
 b!=="number"&&0===b[0])return i(j,0,[3,[0,e,a],l(b[1])]);return 1}return 1},aY):hg;if(hh){var
-dj=aP(function(a){return L(rp(a))},aY);if(dj){var
+dj=aN(function(a){return J(rr(a))},aY);if(dj){var
 md=[0,c(2,a),a],bR=i(j,0,[3,l(bo),md]);if(bR)var
 dE=bR;else
 var
 mg=l(bo),dE=i(j,0,[3,[0,c(2,a),a],mg]);if(dE){var
-ma=y(function(a){if(c_(a))return E9;var
-b=is(0,E_,0,a);return y(function(b){var
-c=f5(j,E$,b);return X(L(rp(a)),c)},b)},aY),mb=function(f){var
-b=gz(ma,f[1]);if(b){var
+ma=x(function(a){if(c_(a))return Fb;var
+b=it(0,Fc,0,a);return x(function(b){var
+c=f6(j,Fd,b);return X(J(rr(a)),c)},b)},aY),mb=function(f){var
+b=gA(ma,f[1]);if(b){var
 c=b[1],d=f[2];switch(d[0]){case
 0:return[0,[0,c,[0,d[1]]],0];case
-2:return[0,[0,c,[1,Fa,[0,[0,a,[0,e,[0,e,0]]],[0,[0,e,[0,a,[0,e,0]]],[0,[0,e,[0,e,[0,a,0]]],0]]],e]],0];default:return[0,[0,c,d],0]}}return b},mc=d(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,y(mb,a[1]),d,c,b]},mR),me=[0,dj[1],dj[2]],mf=rt(bR,a_,bo);return lz(0,rs(bR,b6,a_,bo),0,mf,0,me,mT,mS,mc)}return dE}var
+2:return[0,[0,c,[1,Fe,[0,[0,a,[0,e,[0,e,0]]],[0,[0,e,[0,a,[0,e,0]]],[0,[0,e,[0,e,[0,a,0]]],0]]],e]],0];default:return[0,[0,c,d],0]}}return b},mc=d(function(a){var
+b=a[4],c=a[3],d=a[2];return[0,x(mb,a[1]),d,c,b]},mR),me=[0,dj[1],dj[2]],mf=rv(bR,a_,bo);return lB(0,ru(bR,b6,a_,bo),0,mf,0,me,mT,mS,mc)}return dE}var
 hi=1}else
 var
 hi=hh;var
@@ -9335,36 +9350,36 @@ hk=hj}else
 var
 hk=hb;return hk;case
 1:var
-mU=aZ[4],mV=aZ[3],mW=aZ[2],hl=dJ(l(b6));if(hl){var
-dG=ro(aY);if(dG){var
-bp=dG[1][2],mh=[0,c(2,a),a],bS=i(j,0,[3,l(bp),mh]),hm=i(j,1,l(a_)),hn=hm?i(j,1,[3,l(bp),[0,a,a]]):hm;if(hn)if(bS)var
+mU=aZ[4],mV=aZ[3],mW=aZ[2],hl=dK(l(b6));if(hl){var
+dF=rq(aY);if(dF){var
+bq=dF[1][2],mh=[0,c(2,a),a],bS=i(j,0,[3,l(bq),mh]),hm=i(j,1,l(a_)),hn=hm?i(j,1,[3,l(bq),[0,a,a]]):hm;if(hn)if(bS)var
 bT=bS;else
 var
-mj=l(bp),bT=i(j,0,[3,[0,c(2,a),a],mj]);else
+mj=l(bq),bT=i(j,0,[3,[0,c(2,a),a],mj]);else
 var
 bT=hn;if(bT){var
-mi=rt(bS,a_,bp);return lA(0,rs(bS,b6,a_,bp),0,mi,0,aY,mW,mV,mU)}var
+mi=rv(bS,a_,bq);return lC(0,ru(bS,b6,a_,bq),0,mi,0,aY,mW,mV,mU)}var
 ho=bT}else
 var
-ho=dG;var
+ho=dF;var
 hp=ho}else
 var
 hp=hl;return hp;default:return 0}case
 5:var
 d8=b[4],h9=b[1],d9=w[2];if(0===d9[0]){var
-ia=d9[3],C=ir(h9,[0,b[2],b[3]],0,d8),mX=f(ia),d_=lr(lx(C),mX,ia);if(d_){var
-ih=d_[1];if(ih[2])return 0;var
-ii=iD(h9,0,d8,C),ij=ii?L(ag(c_,d8)):ii;if(ij){var
-im=oU(j,C);if(im){var
-mY=ih[1],io=d(iy,C[1]),V=iz(C[1]),iq=l(b[5]),az=d9[1],c7=hH(V,io,C[1]),ah=jW(V,io,C[1],0),kF=f(C[3]),kG=P(f(c7),kF),bP=[0,f(c7),kG],kI=jY(ah,V,bP,C[3]),kJ=g(d(dr,ah),kI),gF=g(bK(fO(ah)),kJ),gG=dm(gF),gH=dl(gG),a4=cT(gH),gI=C[2];if(0===gI[0]){var
+h_=d9[3],C=is(h9,[0,b[2],b[3]],0,d8),mX=f(h_),d_=lt(lz(C),mX,h_);if(d_){var
+ib=d_[1];if(ib[2])return 0;var
+ii=iE(h9,0,d8,C),ij=ii?J(ag(c_,d8)):ii;if(ij){var
+ik=oW(j,C);if(ik){var
+mY=ib[1],io=d(iz,C[1]),V=iA(C[1]),ip=l(b[5]),az=d9[1],c7=hI(V,io,C[1]),ah=jY(V,io,C[1],0),kF=f(C[3]),kG=P(f(c7),kF),bP=[0,f(c7),kG],kH=j0(ah,V,bP,C[3]),kI=g(d(dr,ah),kH),gF=g(bK(fO(ah)),kI),gG=dm(gF),gH=dl(gG),a4=cT(gH),gI=C[2];if(0===gI[0]){var
 gJ=k(function(a){var
-b=n(e);return a3(q(h(a4,a),gH,b),a)},gF),gK=gJ?i(j,1,iq):gJ;if(gK){var
-kM=C[3],kQ=y(function(a){return d4(V,a)},kM),kU=C[3],k0=g(c7,g(d(function(a){return ca(V,a)},kU),kQ)),c8=ad(d(function(a){return av(az,a)},k0));if(c8){var
-k2=bi(gI[1],V),c9=ad(d(function(a){return av(az,a)},k2));if(c9){var
-c$=dp(az,V,[5,iq,[0,c(2,c(2,c(2,c(2,a)))),a]]);if(c$){var
-db=C[3],k4=c9[1],k5=c8[1],k6=c$[1],kC=ax(0,f(db)),kD=d(function(k){var
+b=n(e);return a3(q(h(a4,a),gH,b),a)},gF),gK=gJ?i(j,1,ip):gJ;if(gK){var
+kK=C[3],kL=x(function(a){return d4(V,a)},kK),kO=C[3],kS=g(c7,g(d(function(a){return ca(V,a)},kO),kL)),c8=ad(d(function(a){return av(az,a)},kS));if(c8){var
+kW=bi(gI[1],V),c9=ad(d(function(a){return av(az,a)},kW));if(c9){var
+c$=dp(az,V,[5,ip,[0,c(2,c(2,c(2,c(2,a)))),a]]);if(c$){var
+db=C[3],k2=c9[1],k4=c8[1],k6=c$[1],kC=ax(0,f(db)),kD=d(function(k){var
 l=F(db,k);if(l){var
-b=l[1],u=ap(k,db),v=f(y(function(a){return d4(V,a)},u)),w=P(bP[2],v),j=[0,P(bP[1],k),w],r=fO(ah),g=h(aC(a4),r),c=[1,[8,[1,[1,j[1]]]]],e=hI(ah,V,j,b),n=e?[0,[3,d(a4,[0,e[1],e[2]])]]:e,m=0;if(typeof
+b=l[1],u=ao(k,db),v=f(x(function(a){return d4(V,a)},u)),w=P(bP[2],v),j=[0,P(bP[1],k),w],r=fO(ah),g=h(aC(a4),r),c=[1,[8,[1,[1,j[1]]]]],e=hJ(ah,V,j,b),n=e?[0,[3,d(a4,[0,e[1],e[2]])]]:e,m=0;if(typeof
 b!=="number")switch(b[0]){case
 0:return[0,[0,g,c]];case
 1:return[0,[1,g,c]];case
@@ -9380,27 +9395,27 @@ q=c;m=1;break;case
 3:case
 6:case
 7:return n}if(m){var
-t=f0(ah,V,j,b);return x(function(a){return[0,h(aC(a4),a),q]},t)}return 0}return l},kC),kE=d(function(a){return h(a4,dr(a))},ah),gE=d(function(a){return h(a4,a[2])},ah),k7=C[3],k8=bP[1],c6=function(aC,aB,aA){var
+t=f1(ah,V,j,b);return y(function(a){return[0,h(aC(a4),a),q]},t)}return 0}return l},kC),kE=d(function(a){return h(a4,dr(a))},ah),gE=d(function(a){return h(a4,a[2])},ah),k7=C[3],k8=bP[1],c6=function(aC,aB,aA){var
 l=aC,n=aB,g=aA;for(;;)switch(g[0]){case
 0:var
-v=g[1],$=m(f(v),y7),aa=$?k(function(b){var
+v=g[1],$=m(f(v),y$),aa=$?k(function(b){var
 d=D(W(c(2,c(2,c(2,a)))),b);return d?D(b,c(2,c(2,c(2,a)))):d},v):$;if(aa){var
-ab=q0(az,k6,cX(0,n),v),j=g[2],w=cS(0,b_(az,ab,d(R,l)),gG),aD=d(R,l),M=function(a){return qZ(qY(az,ab,aD,w,a))};if(typeof
+ab=q2(az,k6,cX(0,n),v),j=g[2],w=cS(0,b_(az,ab,d(R,l)),gG),aD=d(R,l),M=function(a){return q1(q0(az,ab,aD,w,a))};if(typeof
 j==="number")return 0===j?ag(function(b){var
 a=q(b,w,0);return a?D(a[1][2][2],e):a},gE):0;else{if(0===j[0]){var
-b=j[2],N=k(y5,b);if(N){var
+b=j[2],N=k(y9,b);if(N){var
 r=q(j[1],kD,0);if(r){var
 i=r[1];switch(i[0]){case
 0:var
 x=0;if(b)if(b[2])var
 h=0;else{var
-A=b[1],B=i[1],ao=il(B,A),ap=ik(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],ap]],ao]],0]]];x=1}else{var
+A=b[1],B=i[1],ao=im(B,A),ap=il(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],ap]],ao]],0]]];x=1}else{var
 C=b;x=1}if(x)var
 h=C;break;case
 1:var
 y=0;if(b)if(b[2])var
 h=0;else{var
-E=b[1],G=i[1],aq=ik(E),ar=[1,[6,i[2],aq]],H=[0,[0,G,[0,[1,[4,il(G,E),ar]],0]]];y=1}else{var
+E=b[1],G=i[1],aq=il(E),ar=[1,[6,i[2],aq]],H=[0,[0,G,[0,[1,[4,im(G,E),ar]],0]]];y=1}else{var
 H=b;y=1}if(y)var
 h=H;break;case
 2:var
@@ -9408,7 +9423,7 @@ z=0;if(b){var
 o=b[2],an=0;if(o)if(o[2]){var
 h=0;an=1}else
 var
-I=o[1],J=b[1],p=i[1],as=ik(J),at=[1,[6,il(p,I),as]],au=[1,[6,i[2],at]],av=ik(I),K=[0,[0,p,[0,[1,[4,[1,[6,il(p,J),av]],au]],0]]];else
+I=o[1],J=b[1],p=i[1],as=il(J),at=[1,[6,im(p,I),as]],au=[1,[6,i[2],at]],av=il(I),K=[0,[0,p,[0,[1,[4,[1,[6,im(p,J),av]],au]],0]]];else
 var
 K=o;if(!an){var
 L=K;z=1}}else{var
@@ -9417,7 +9432,7 @@ h=L;break;default:if(b)var
 h=0;else
 var
 aw=i[1],h=[0,[0,0,d(function(a){return[1,[5,[0,a]]]},aw)]]}if(h){var
-O=h[1],ax=O[1],Q=k(function(a){return qZ(q(a[2],w,0))},ax);if(Q)return k(M,O[2]);var
+O=h[1],ax=O[1],Q=k(function(a){return q1(q(a[2],w,0))},ax);if(Q)return k(M,O[2]);var
 S=Q}else
 var
 S=h;var
@@ -9440,18 +9455,18 @@ Z=0}else
 var
 Z=s;return Z}}return aa;case
 1:var
-ac=g[1],ad=q1(ac,n);if(ad){var
+ac=g[1],ad=q3(ac,n);if(ad){var
 ae=ds(ac,n),af=c6(l,ae[1],g[2]);if(af){var
 n=ae[2],g=g[3];continue}var
 ah=af}else
 var
 ah=ad;return ah;default:var
-ai=g[1],aj=q1(ai,l);if(aj){var
+ai=g[1],aj=q3(ai,l);if(aj){var
 ak=ds(ai,l),al=c6(ak[1],n,g[2]);if(al){var
 l=ak[2],g=g[3];continue}var
 am=al}else
 var
-am=aj;return am}};return c6(k5,k4,mY)}var
+am=aj;return am}};return c6(k4,k2,mY)}var
 gL=c$}else
 var
 gL=c9;var
@@ -9461,81 +9476,81 @@ gM=c8;var
 gN=gM}else
 var
 gN=gK;return gN}return 0}var
-it=im}else
+ir=ik}else
 var
-it=ij;var
-iu=it}else
+ir=ij;var
+iu=ir}else
 var
 iu=d_;return iu}return 0;case
 6:var
 iv=b[1];if(iv){var
 iw=iv[1],d$=w[2];if(0===d$[0]){var
-ea=lq(Fh,0,0,0,Fg,d$[3]);if(ea){var
-iA=gx(iw);if(iA){var
-mZ=ea[1],iH=ci(iw)[2],b7=d$[1],c3=dp(b7,e,iH);if(c3){var
-c4=dp(b7,e,[5,[0,a,a],iH]);if(c4){var
-kB=c3[1][1],gs=I(cR(b7),kB);if(gs)return qX(b7,c4[1][1],mZ);var
-gw=gs}else
+ea=ls(Fl,0,0,0,Fk,d$[3]);if(ea){var
+ix=gy(iw);if(ix){var
+mZ=ea[1],iB=ci(iw)[2],b7=d$[1],c3=dp(b7,e,iB);if(c3){var
+c4=dp(b7,e,[5,[0,a,a],iB]);if(c4){var
+kA=c3[1][1],gs=I(cR(b7),kA);if(gs)return qZ(b7,c4[1][1],mZ);var
+gt=gs}else
 var
-gw=c4;var
-gA=gw}else
+gt=c4;var
+gx=gt}else
 var
-gA=c3;return gA}var
-iI=iA}else
+gx=c3;return gx}var
+iI=ix}else
 var
 iI=ea;return iI}return 0}var
 eb=w[2];if(0===eb[0]){var
-ec=lq(Fj,0,0,0,Fi,eb[3]);return ec?qX(eb[1],e,ec[1]):ec}return 0;default:var
+ec=ls(Fn,0,0,0,Fm,eb[3]);return ec?qZ(eb[1],e,ec[1]):ec}return 0;default:var
 a$=b[1],iJ=w[2];if(2===iJ[0]){var
-iK=iJ[1],ed=lo(f(iK),iK);if(ed){var
+iK=iJ[1],ed=lq(f(iK),iK);if(ed){var
 iL=ed[1];if(iL[2])return 0;var
-ee=iL[1],g5=ae(E6,f(a$)),g6=g5?ae(f(a$),dW):g5,g7=g6?qs(d(ao,a$)):g6,iM=g7?k(function(c){var
+ee=iL[1],g5=ae(E_,f(a$)),g6=g5?ae(f(a$),dX):g5,g7=g6?qu(d(ap,a$)):g6,iM=g7?k(function(c){var
 a=cV(l(c[2][1]));if(a){var
-b=cV(l(c[2][2]));if(b)return L(bq(b[1],a[1]));var
+b=cV(l(c[2][2]));if(b)return J(bp(b[1],a[1]));var
 d=b}else
 var
 d=a;return d},a$):g7;if(iM)var
-m0=ix(DT,ee),ef=rQ(b[5],m0);else
+m0=iy(DX,ee),ef=rS(b[5],m0);else
 var
 ef=iM;if(ef)var
-m1=ix(DU,ee),ek=rQ(b[6],m1);else
+m1=iy(DY,ee),ek=rS(b[6],m1);else
 var
 ek=ef;if(ek){var
-lV=d(function(a){return[0,e,0]},a$);return rP(a$,b[2],b[3],b[4],lV,ee)}var
+lV=d(function(a){return[0,e,0]},a$);return rR(a$,b[2],b[3],b[4],lV,ee)}var
 iN=ek}else
 var
 iN=ed;return iN}return 0}}return br}var
-aa=[bd,Fm,uc(0)],rU=[bd,Fn,uc(0)];function
-Fk(l,b){var
-f=[0,o(Df,ay(b[4])),0],g=[0,o(Dh,al([0,o(Dg,ay(b[3])),f])),0],a=b[2];switch(a[0]){case
+aa=[bd,Fq,ue(0)],rW=[bd,Fr,ue(0)];function
+Fo(l,b){var
+f=[0,o(Dj,ay(b[4])),0],g=[0,o(Dl,al([0,o(Dk,ay(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=U(Db,q8(a[1],a[2],a[3]));break;case
+c=U(Df,q_(a[1],a[2],a[3]));break;case
 1:var
-c=U(Dc,q9(a[1],a[2],a[3],a[4]));break;default:var
-c=U(Dd,K(d(C8,a[1])))}var
-h=[0,o(Di,c),g],i=1===b[2][0]?Do:Dj,j=[0,o(Dk,ay(i)),h],k=[0,o(Dl,BH(b[1])),j],e=aM(ms(Fl,im(al([0,o(Dn,ay(Dm)),k]),De)),l);return e?Fc(b):e}function
+c=U(Dg,q$(a[1],a[2],a[3],a[4]));break;default:var
+c=U(Dh,L(d(Da,a[1])))}var
+h=[0,o(Dm,c),g],i=1===b[2][0]?Ds:Dn,j=[0,o(Do,ay(i)),h],k=[0,o(Dp,BL(b[1])),j],e=aM(mu(Fp,io(al([0,o(Dr,ay(Dq)),k]),Di)),l);return e?Fg(b):e}function
 am(a){if(0===a[0])return a[1];throw aa}function
 af(a){if(1===a[0])return a[1];throw aa}function
 ba(a){if(2===a[0])return a[1];throw aa}function
-gA(a){if(3===a[0])return a[1];throw aa}function
-bm(b,a){return mr(a,b)}function
+gB(a){if(3===a[0])return a[1];throw aa}function
+bm(b,a){return mt(a,b)}function
 z(c,b){var
 a=bm(c,b);if(a)return a[1];throw aa}function
-cF(b,a){var
+cG(b,a){var
 c=a?[0,h(b,a[1])]:a;return c}function
 eu(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],Fp]}throw aa}function
-gB(e,d){var
+2:return[0,a[1],Ft]}throw aa}function
+gC(e,d){var
 a=Z(e,af(d));if(a){var
 b=a[2];if(b){var
 c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw aa}function
-iH(i){var
-f=fz(i),d=[0,0],e=i$(f)-1|0;if(!(e<0)){var
+iI(i){var
+f=fz(i),d=[0,0],e=ja(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=l6(f,c)-48|0;if(9<g>>>0)throw aa;switch(g){case
+a=d[1],g=l8(f,c)-48|0;if(9<g>>>0)throw aa;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -9557,21 +9572,21 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-gC(a){return mI(iH(a))}function
+gD(a){return mK(iI(a))}function
 fl(b){var
-a=gA(b);return 45===be(a,0)?W(gC(eF(a,1,aI(a)-1|0))):gC(a)}function
-rV(a){return eH(gC(gA(a)))}function
+a=gB(b);return 45===be(a,0)?W(gD(eF(a,1,aI(a)-1|0))):gD(a)}function
+rX(a){return eH(gD(gB(a)))}function
 db(b){var
-a=gA(b);if(!(2<aI(a))&&!(64<=i_(a)))return jl(gC(a));throw aa}function
+a=gB(b);if(!(2<aI(a))&&!(64<=i$(a)))return jm(gD(a));throw aa}function
 dc(c){var
-a=gA(c);if(6<aI(a))throw aa;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(i_(a))}function
-rW(a){var
-b=97<=a?1:0,c=b?a<=tQ?1:0:b;if(c)var
+a=gB(c);if(6<aI(a))throw aa;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(i$(a))}function
+rY(a){var
+b=97<=a?1:0,c=b?a<=tS?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-rX(y,b){var
+rZ(y,b){var
 d=aI(b),a=[0,0];function
 c(e){var
 c=a[1]<d?1:0,f=c?be(b,a[1])===e?1:0:c;return f}function
@@ -9581,24 +9596,24 @@ m(b){a[1]++;var
 d=f(b+1|0);if(c(41)){a[1]++;return d}throw aa}function
 i(j){if(64<j)throw aa;if(c(45)){a[1]++;return[2,i(j+1|0)]}if(c(40))var
 e=m(j);else{var
-u=0;if((a[1]+5|0)<=d&&aM(eF(b,a[1],5),Fr)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&aM(eF(b,a[1],5),Fv)){a[1]=a[1]+4|0;var
 e=[5,m(j)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&rW(be(b,a[1]))){var
+v=0;if(a[1]<d&&rY(be(b,a[1]))){var
 n=a[1];for(;;){if(a[1]<d){var
-w=0;if(!rW(be(b,a[1]))&&95!==be(b,a[1])&&(!(48<=be(b,a[1]))||57<be(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+w=0;if(!rY(be(b,a[1]))&&95!==be(b,a[1])&&(!(48<=be(b,a[1]))||57<be(b,a[1])))w=1;if(!w){a[1]++;continue}}var
 e=[1,h(y,eF(b,n,a[1]-n|0))];break}}else
 v=1;if(v){var
-g=l(0),o=c(46),q=o?(a[1]++,[0,l(0)]):o,r=aM(g,Fs);if(r)var
+g=l(0),o=c(46),q=o?(a[1]++,[0,l(0)]):o,r=aM(g,Fw);if(r)var
 s=r;else
 var
 t=1<aI(g)?1:0,s=t?48===be(g,0)?1:0:t;if(s)throw aa;if(q){var
-k=q[1],x=0;if(aM(k,Ft)||48===be(k,aI(k)-1|0))x=1;else
+k=q[1],x=0;if(aM(k,Fx)||48===be(k,aI(k)-1|0))x=1;else
 var
-z=iH(k),e=[0,iH(g),z];if(x)throw aa}else
+z=iI(k),e=[0,iI(g),z];if(x)throw aa}else
 var
-e=[0,iH(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(p(f,Fq)){if(!(2<aI(f))&&2<=i_(f)&&!(64<i_(f)))return[4,e,eH(gC(f))];throw aa}throw aa}return e}function
+e=[0,iI(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(p(f,Fu)){if(!(2<aI(f))&&2<=i$(f)&&!(64<i$(f)))return[4,e,eH(gD(f))];throw aa}throw aa}return e}function
 e(d){var
 b=i(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,i(d)];continue}if(c(47)){a[1]++;var
@@ -9608,55 +9623,55 @@ b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
 g=f(0);if(a[1]<d)throw aa;return g}function
-iI(a){return rX(function(a){return[0,a]},a)}function
-lC(a){var
-b=ba(a);return rX(function(a){return a},b)}function
-ab(a){return iI(ba(a))}function
-ck(a){if(2===a[0])return[0,iI(a[1])];var
-b=am(a),c=ab(z(b,Fu));return[1,ab(z(b,Fv)),c]}function
-at(a){throw[0,rU,bo(ms(Fx,a),Fw)]}function
-lD(c){var
-a=ba(c);if(p(a,Fy)){var
-b=p(a,Fz);if(b)throw aa;return b}return 1}function
-FA(d){var
+iJ(a){return rZ(function(a){return[0,a]},a)}function
+lE(a){var
+b=ba(a);return rZ(function(a){return a},b)}function
+ab(a){return iJ(ba(a))}function
+ck(a){if(2===a[0])return[0,iJ(a[1])];var
+b=am(a),c=ab(z(b,Fy));return[1,ab(z(b,Fz)),c]}function
+at(a){throw[0,rW,bo(mu(FB,a),FA)]}function
+lF(c){var
+a=ba(c);if(p(a,FC)){var
+b=p(a,FD);if(b)throw aa;return b}return 1}function
+FE(d){var
 b=am(d);function
-a(a){return gB(ck,z(b,a))}var
-c=ba(z(b,FB));if(p(c,FC)){if(p(c,FD)){if(p(c,FE))return at([0,FG,[0,c,FF]]);var
-e=bm(b,FH),f=cF(function(a){return gB(ck,a)},e),g=a(FI);return[1,a(FJ),g,f]}var
-h=lD(z(b,FK)),i=ck(z(b,FL)),j=a(FM),k=a(FN);return[0,a(FO),k,j,i,h]}return[2,a(FP)]}function
-FQ(d){var
+a(a){return gC(ck,z(b,a))}var
+c=ba(z(b,FF));if(p(c,FG)){if(p(c,FH)){if(p(c,FI))return at([0,FK,[0,c,FJ]]);var
+e=bm(b,FL),f=cG(function(a){return gC(ck,a)},e),g=a(FM);return[1,a(FN),g,f]}var
+h=lF(z(b,FO)),i=ck(z(b,FP)),j=a(FQ),k=a(FR);return[0,a(FS),k,j,i,h]}return[2,a(FT)]}function
+FU(d){var
 a=am(d);if(a){var
-b=a[1];if(!p(b[1],FR)){var
-c=b[2];if(2===c[0]&&!p(c[1],FS))return 1}}return 0}function
-rY(e){var
+b=a[1];if(!p(b[1],FV)){var
+c=b[2];if(2===c[0]&&!p(c[1],FW))return 1}}return 0}function
+r0(e){var
 b=am(e);function
 a(a){return Z(ck,af(z(b,a)))}var
-c=ba(z(b,FT)),f=bm(b,FU),d=cF(function(a){return Z(ck,af(a))},f);if(p(c,FV)){if(p(c,FW)){if(p(c,FX)){if(!p(c,FY)){var
-g=a(F1);return[1,a(F2),g,d]}}else
+c=ba(z(b,FX)),f=bm(b,FY),d=cG(function(a){return Z(ck,af(a))},f);if(p(c,FZ)){if(p(c,F0)){if(p(c,F1)){if(!p(c,F2)){var
+g=a(F5);return[1,a(F6),g,d]}}else
 if(!d){var
-h=lD(z(b,F3)),i=ck(z(b,F4)),j=a(F5),k=a(F6);return[0,a(F7),k,j,i,h]}}else
-if(!d)return[2,a(F8)]}else
+h=lF(z(b,F7)),i=ck(z(b,F8)),j=a(F9),k=a(F_);return[0,a(F$),k,j,i,h]}}else
+if(!d)return[2,a(Ga)]}else
 if(!d){var
-l=lD(z(b,F9)),m=ck(z(b,F_)),n=ck(z(b,F$)),o=a(Ga),q=a(Gb),r=a(Gc);return[3,a(Gd),r,q,o,n,m,l]}return at([0,F0,[0,c,FZ]])}function
-Ge(d){var
+l=lF(z(b,Gb)),m=ck(z(b,Gc)),n=ck(z(b,Gd)),o=a(Ge),q=a(Gf),r=a(Gg);return[3,a(Gh),r,q,o,n,m,l]}return at([0,F4,[0,c,F3]])}function
+Gi(d){var
 a=am(d);if(a){var
-b=a[1];if(!p(b[1],Gf)){var
-c=b[2];if(2===c[0]&&!p(c[1],Gg))return 1}}return 0}function
-Gh(d){var
+b=a[1];if(!p(b[1],Gj)){var
+c=b[2];if(2===c[0]&&!p(c[1],Gk))return 1}}return 0}function
+Gl(d){var
 a=am(d);if(a){var
-b=a[1];if(!p(b[1],Gi)){var
-c=b[2];if(2===c[0]&&!p(c[1],Gj))return 1}}return 0}function
-rZ(d){var
+b=a[1];if(!p(b[1],Gm)){var
+c=b[2];if(2===c[0]&&!p(c[1],Gn))return 1}}return 0}function
+r1(d){var
 a=am(d);if(a){var
-b=a[1];if(!p(b[1],Gk)){var
-c=b[2];if(2===c[0]&&!p(c[1],Gl))return 1}}return 0}function
-dL(c,d){var
+b=a[1];if(!p(b[1],Go)){var
+c=b[2];if(2===c[0]&&!p(c[1],Gp))return 1}}return 0}function
+dM(c,d){var
 a=af(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 e=h(c,b[1]);return[0,h(c,a[1]),e]}}throw aa}function
 ev(g,o){var
-h=g?g[1]:g,c=am(o),a=ba(z(c,Gm)),j=uo(a,Gn),f=0;if(0<=j)if(0<j)if(p(a,Go))if(p(a,Gp))if(p(a,Gq))if(p(a,Gr))if(p(a,Gs))if(p(a,Gt))if(p(a,Gu)){var
-k=p(a,Gv);if(k)f=1;else
+h=g?g[1]:g,c=am(o),a=ba(z(c,Gq)),j=uq(a,Gr),f=0;if(0<=j)if(0<j)if(p(a,Gs))if(p(a,Gt))if(p(a,Gu))if(p(a,Gv))if(p(a,Gw))if(p(a,Gx))if(p(a,Gy)){var
+k=p(a,Gz);if(k)f=1;else
 var
 b=k}else
 var
@@ -9676,7 +9691,7 @@ var
 b=13;else
 var
 b=2;else
-if(p(a,GQ))if(p(a,GR))if(p(a,GS))if(p(a,GT))if(p(a,GU))if(p(a,GV))if(p(a,GW))if(p(a,GX))f=1;else
+if(p(a,GU))if(p(a,GV))if(p(a,GW))if(p(a,GX))if(p(a,GY))if(p(a,GZ))if(p(a,G0))if(p(a,G1))f=1;else
 var
 b=1;else
 var
@@ -9694,12 +9709,12 @@ b=14;else
 f=1;else
 var
 b=12;var
-n=f?at([0,Gx,[0,a,Gw]]):b;function
-i(a){return z(c,Gy)}var
-d=ba(z(c,Gz)),l=p(d,GA);if(l)if(p(d,GB))if(p(d,GC))if(p(d,GD))var
-e=at([0,GF,[0,d,GE]]);else
+n=f?at([0,GB,[0,a,GA]]):b;function
+i(a){return z(c,GC)}var
+d=ba(z(c,GD)),l=p(d,GE);if(l)if(p(d,GF))if(p(d,GG))if(p(d,GH))var
+e=at([0,GJ,[0,d,GI]]);else
 var
-m=dL(ab,i(0)),e=[2,m[1],m[2]];else
+m=dM(ab,i(0)),e=[2,m[1],m[2]];else
 var
 e=[0,ab(i(0))];else
 var
@@ -9709,115 +9724,115 @@ e=l;function
 q(H){var
 a=am(H),b=0;switch(n){case
 6:if(a){var
-r=a[1];if(!p(r[1],GH)){var
+r=a[1];if(!p(r[1],GL)){var
 s=r[2];if(1===s[0]){var
 c=s[1],m=0;if(c&&!c[2])if(a[2])m=1;else{var
 e=c[1];b=1;m=1}if(!m&&!a[2]){var
 t=c;b=2}}}}break;case
 10:if(a){var
-u=a[1];if(!p(u[1],GI)){var
+u=a[1];if(!p(u[1],GM)){var
 v=u[2];if(1===v[0]){var
 f=v[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-w=g[1];if(!p(w[1],GJ)){var
+w=g[1];if(!p(w[1],GN)){var
 x=w[2];if(1===x[0]){var
 i=x[1];if(i&&!i[2]&&!g[2]){var
 I=ab(i[1]);return[2,ab(f[1]),I]}}}}}}}}break;case
 12:if(a){var
-y=a[1];if(!p(y[1],GK)){var
+y=a[1];if(!p(y[1],GO)){var
 z=y[2];if(1===z[0]){var
 j=z[1];if(j&&!j[2]){var
 k=a[2],A=j[1];if(k){var
-B=k[1];if(!p(B[1],GL)){var
+B=k[1];if(!p(B[1],GP)){var
 C=B[2];if(1===C[0]){var
 l=C[1];if(l&&!l[2]&&!k[2]&&h){var
 J=ab(l[1]);return[3,ab(A),J]}}}}else{var
 e=A;b=1}}}}}break;case
 16:if(a){var
-F=a[1];if(!p(F[1],GN)){var
+F=a[1];if(!p(F[1],GR)){var
 G=F[2];if(1===G[0]&&!a[2]){var
 t=G[1];b=2}}}break;case
 14:case
 15:if(a){var
-D=a[1];if(!p(D[1],GM)){var
+D=a[1];if(!p(D[1],GQ)){var
 E=D[2];if(1===E[0]&&!a[2])return[1,Z(ab,E[1])]}}break;case
 2:case
 8:if(a){var
-o=a[1];if(!p(o[1],GG)){var
+o=a[1];if(!p(o[1],GK)){var
 q=o[2];if(1===q[0]){var
 d=q[1];if(d&&!d[2]&&!a[2]){var
 e=d[1];b=1}}}}break}switch(b){case
 0:throw aa;case
 1:return[0,ab(e)];default:return[1,Z(ab,t)]}}var
-r=cF(q,bm(c,GO));return[0,n,cF(dc,bm(c,GP)),r,e]}function
-r0(c){var
-d=ev(G0,c),e=d[1];if(!(9<=e))switch(e){case
+r=cG(q,bm(c,GS));return[0,n,cG(dc,bm(c,GT)),r,e]}function
+r2(c){var
+d=ev(G4,c),e=d[1];if(!(9<=e))switch(e){case
 2:case
 6:case
 8:return d}var
-a=ev(GY,c),b=a[1];if(2!==b&&!(4<=b))return a;return at(GZ)}function
-r1(a){var
-b=ev(G1,a);return 11===b[1]?b:r0(a)}function
-G2(a){var
-b=ev(G3,a);return 12===b[1]?b:r1(a)}function
-G4(a){var
-b=ev(G5,a),c=b[1];if(9<=c)switch(c-9|0){case
+a=ev(G2,c),b=a[1];if(2!==b&&!(4<=b))return a;return at(G3)}function
+r3(a){var
+b=ev(G5,a);return 11===b[1]?b:r2(a)}function
+G6(a){var
+b=ev(G7,a);return 12===b[1]?b:r3(a)}function
+G8(a){var
+b=ev(G9,a),c=b[1];if(9<=c)switch(c-9|0){case
 2:case
 4:case
-7:break;default:return b}return r1(a)}function
-lE(c){var
-d=ev(G6,c),a=d[1];if(4<=a){var
+7:break;default:return b}return r3(a)}function
+lG(c){var
+d=ev(G_,c),a=d[1];if(4<=a){var
 b=0;if(6<=a)switch(a-6|0){case
 4:case
 5:case
 6:case
 7:case
 10:b=1;break}else
-b=1;if(b)return d}return r0(c)}function
-lF(b){var
-a=am(b[2]);if(p(b[1],Hb)){var
-c=dL(ab,z(a,Hc)),d=dL(ab,z(a,Hd)),e=d[2],f=d[1],g=ab(z(a,He));return[1,c[1],c[2],g,f,e]}var
-h=Z(ab,af(z(a,Hf)));return[0,Z(ab,af(z(a,Hg))),h]}function
-Hh(f){var
+b=1;if(b)return d}return r2(c)}function
+lH(b){var
+a=am(b[2]);if(p(b[1],Hf)){var
+c=dM(ab,z(a,Hg)),d=dM(ab,z(a,Hh)),e=d[2],f=d[1],g=ab(z(a,Hi));return[1,c[1],c[2],g,f,e]}var
+h=Z(ab,af(z(a,Hj)));return[0,Z(ab,af(z(a,Hk))),h]}function
+Hl(f){var
 a=am(f);function
 d(b){return ab(z(a,b))}function
-c(b){return gB(ab,z(a,b))}var
-b=ba(z(a,Hi));if(p(b,Hj)){if(!p(b,Hk)){var
-j=z(a,Hq),e=dL(function(a){return a},j),k=bm(a,Hr),l=cF(function(a){return c(Hs)},k),m=iI(ba(e[2])),n=iI(ba(e[1])),o=d(Ht);return[0,dc(z(a,Hu)),o,n,m,l]}if(p(b,Hl))throw aa}var
-g=d(Hm),h=c(Hn),i=c(Ho);return[1,aM(b,Hp),i,h,g]}function
-lG(aF){var
-j=eu(aF),k=j[1];if(p(k,Hv)){if(p(k,Hw)){if(p(k,Hx)){if(p(k,Hy))return at([0,HA,[0,k,Hz]]);var
-C=z(am(j[2]),HB),an=0;if(2===C[0]){var
-R=p(C[1],HC);if(!R){var
+c(b){return gC(ab,z(a,b))}var
+b=ba(z(a,Hm));if(p(b,Hn)){if(!p(b,Ho)){var
+j=z(a,Hu),e=dM(function(a){return a},j),k=bm(a,Hv),l=cG(function(a){return c(Hw)},k),m=iJ(ba(e[2])),n=iJ(ba(e[1])),o=d(Hx);return[0,dc(z(a,Hy)),o,n,m,l]}if(p(b,Hp))throw aa}var
+g=d(Hq),h=c(Hr),i=c(Hs);return[1,aM(b,Ht),i,h,g]}function
+lI(aG){var
+j=eu(aG),k=j[1];if(p(k,Hz)){if(p(k,HA)){if(p(k,HB)){if(p(k,HC))return at([0,HE,[0,k,HD]]);var
+C=z(am(j[2]),HF),an=0;if(2===C[0]){var
+R=p(C[1],HG);if(!R){var
 Q=R;an=1}}if(!an)var
 Q=[0,ck(C)];return[6,Q]}var
-S=am(j[2]),l=lG([0,[0,[0,HE,z(S,HD)],0]]);if(0===l[0]){var
+S=am(j[2]),l=lI([0,[0,[0,HI,z(S,HH)],0]]);if(0===l[0]){var
 D=l[2];if(0===D[0]&&!l[3]){var
-T=l[4];if(!aT(cj,T)){var
-aG=ab(z(S,HG));return[5,l[1],D[1],D[2],T,aG]}}}return at(HF)}var
-a=am(j[2]),E=bm(a,HH),F=E?Z(Hh,af(E[1])):E,s=function(b){var
-a=0!==F?1:0;return a?at(HI):a},m=eu(z(a,HJ)),c=eu(z(a,HK)),d=m[1];if(p(d,HL)&&p(d,HM)&&p(d,HN)){if(0===bm(a,HO)){if(p(d,HP)){var
-ao=0;if(p(d,HQ)){if(!p(d,HR)){var
-U=c[1],ap=0;if(p(U,HU)&&p(U,HV)){ao=1;ap=1}if(!ap){var
-n=af(m[2]),aI=af(z(a,HY)),G=Z(function(a){return ev(0,a)},aI),aJ=aT(function(a){switch(a[1]){case
-5:return 1-eE(Ge,n);case
-11:return aT(Gh,n);case
+T=l[4];if(!aU(cj,T)){var
+aH=ab(z(S,HK));return[5,l[1],D[1],D[2],T,aH]}}}return at(HJ)}var
+a=am(j[2]),E=bm(a,HL),F=E?Z(Hl,af(E[1])):E,s=function(b){var
+a=0!==F?1:0;return a?at(HM):a},m=eu(z(a,HN)),c=eu(z(a,HO)),d=m[1];if(p(d,HP)&&p(d,HQ)&&p(d,HR)){if(0===bm(a,HS)){if(p(d,HT)){var
+ao=0;if(p(d,HU)){if(!p(d,HV)){var
+U=c[1],ap=0;if(p(U,HY)&&p(U,HZ)){ao=1;ap=1}if(!ap){var
+n=af(m[2]),aI=af(z(a,H2)),G=Z(function(a){return ev(0,a)},aI),aJ=aU(function(a){switch(a[1]){case
+5:return 1-eE(Gi,n);case
+11:return aU(Gl,n);case
 7:case
 9:case
 10:case
-12:return 1;default:return 0}},G);if(!aT(FQ,n)){var
-aq=0;if(!aT(cj,G)||aJ)aq=1;if(aq){var
-aN=Z(FA,n),i=am(c[2]);if(p(c[1],G7))var
-O=dL(ab,z(i,G8)),P=dL(ab,z(i,G9)),aB=P[2],aC=P[1],aD=ab(z(i,G_)),V=[1,O[1],O[2],aD,aC,aB];else
+12:return 1;default:return 0}},G);if(!aU(FU,n)){var
+aq=0;if(!aU(cj,G)||aJ)aq=1;if(aq){var
+aN=Z(FE,n),i=am(c[2]);if(p(c[1],G$))var
+O=dM(ab,z(i,Ha)),P=dM(ab,z(i,Hb)),aB=P[2],aC=P[1],aD=ab(z(i,Hc)),V=[1,O[1],O[2],aD,aC,aB];else
 var
-aE=gB(ab,z(i,G$)),V=[0,gB(ab,z(i,Ha)),aE];return[0,aN,V,F,G]}}s(0);var
-aK=Z(lE,af(z(a,HZ))),aL=lF(c);return[1,0,Z(rY,n),0,aL,0,aK]}}}else
-if(!p(c[1],H0)){s(0);var
-W=Z(lE,af(z(a,H1))),y=0,g=W;for(;;){if(g){var
+aF=gC(ab,z(i,Hd)),V=[0,gC(ab,z(i,He)),aF];return[0,aN,V,F,G]}}s(0);var
+aK=Z(lG,af(z(a,H3))),aL=lH(c);return[1,0,Z(r0,n),0,aL,0,aK]}}}else
+if(!p(c[1],H4)){s(0);var
+W=Z(lG,af(z(a,H5))),y=0,g=W;for(;;){if(g){var
 L=g[2],M=g[1];if(0===M[1]){var
 y=[0,M,y],g=L;continue}var
 g=L;continue}var
-q=je(y),ar=0;if(q){var
+q=jf(y),ar=0;if(q){var
 e=0,X=q[1][4];if(typeof
 X==="number")e=1;else
 switch(X[0]){case
@@ -9832,79 +9847,79 @@ I=q[2];if(I){var
 K=0,_=I[1][4];if(typeof
 _!=="number"&&0===_[0])if(I[2]){e=1;K=1}else
 K=1;if(!K)e=1}else
-e=1;break;default:e=1}if(!e)ar=1}if(!ar)at(H2);var
-aO=ab(z(am(c[2]),H3));return[4,ab(z(am(m[2]),H4)),aO,W]}}if(!ao)return at([0,HT,[0,d,HS]])}else
-if(!p(c[1],H5)){s(0);var
+e=1;break;default:e=1}if(!e)ar=1}if(!ar)at(H6);var
+aO=ab(z(am(c[2]),H7));return[4,ab(z(am(m[2]),H8)),aO,W]}}if(!ao)return at([0,HX,[0,d,HW]])}else
+if(!p(c[1],H9)){s(0);var
 t=am(m[2]),$=am(c[2]),ac=function(c,a){var
 b=af(a);return Z(function(d){var
 a=af(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 e=h(c,b[1]);return[0,ba(a[1]),e]}}throw aa},b)},aP=function(d){var
 a=am(d);if(a){var
-b=a[1],c=b[1];if(p(c,H6)){if(!p(c,H7)&&!a[2])return[0,Z(lC,af(b[2]))]}else
-if(!a[2])return[1,lC(b[2])]}throw aa},ad=ac(lC,z(t,H8)),ae=Z(aP,af(z(t,H9))),A=0,r=ae;for(;;){if(r){var
-B=r[1],au=r[2],av=0===B[0]?B[1]:[0,B[1],0],A=mp(av,A),r=au;continue}var
-aw=je(A),f=function(b,a){switch(a[0]){case
+b=a[1],c=b[1];if(p(c,H_)){if(!p(c,H$)&&!a[2])return[0,Z(lE,af(b[2]))]}else
+if(!a[2])return[1,lE(b[2])]}throw aa},ad=ac(lE,z(t,Ia)),ae=Z(aP,af(z(t,Ib))),A=0,r=ae;for(;;){if(r){var
+B=r[1],au=r[2],av=0===B[0]?B[1]:[0,B[1],0],A=mr(av,A),r=au;continue}var
+aw=jf(A),f=function(b,a){switch(a[0]){case
 0:var
 c=1;break;case
 1:var
-d=mr(a[1],b),e=1,g=d?d[1]:e,c=g;break;case
+d=mt(a[1],b),e=1,g=d?d[1]:e,c=g;break;case
 3:var
 h=f(b,a[3]),c=(1+f(b,a[2])|0)+h|0;break;case
 4:var
-i=jd(a[2]),c=md(f(b,a[1]),i);break;default:var
-c=1+f(b,a[1])|0}return mm(32769,c)},ax=0,N=mq(function(b,a){var
-c=f(b,a[2]);return[0,[0,a[1],c],b]},ax,ad),ay=Z(function(a){return f(N,a)},aw),az=mn(Z(aH,N),ay),aA=0;if(32768<mq(function(b,a){return b+a|0},aA,az))at([0,H$,[0,b("32768"),H_]]);var
-aQ=Z(G2,af(z(a,Ia))),aR=Z(ab,af(z($,Ib))),aS=Z(ab,af(z($,Ic))),aU=ac(ck,z(t,Id));return[3,Z(ba,af(z(t,Ie))),aU,ad,ae,aS,aR,aQ]}}return at([0,HX,[0,c[1],HW]])}throw aa}var
-ag=am(m[2]),u=cF(ab,bm(ag,If)),aV=function(f){var
-a=eu(f),b=a[1];if(p(b,Ig)){if(p(b,Ih)){if(p(b,Ii)){if(p(b,Ij))throw aa;var
-d=a[2],g=ab(z(am(d),Ik));return[3,ab(z(am(d),Il)),g]}var
-h=a[2],c=function(a){return dL(ab,z(am(h),a))},i=c(Im),j=c(In);return[1,c(Io),j,i]}var
-e=dL(ab,a[2]);return[0,e[1],e[2]]}return[2,ab(a[2])]},v=cF(aV,bm(a,Ip)),ah=p(d,Iq),ai=ah?p(d,Ir)?2:1:ah,w=af(z(ag,Is));if(u&&v&&eE(rZ,w)){var
+i=je(a[2]),c=mf(f(b,a[1]),i);break;default:var
+c=1+f(b,a[1])|0}return mo(32769,c)},ax=0,N=ms(function(b,a){var
+c=f(b,a[2]);return[0,[0,a[1],c],b]},ax,ad),ay=Z(function(a){return f(N,a)},aw),az=mp(Z(aE,N),ay),aA=0;if(32768<ms(function(b,a){return b+a|0},aA,az))at([0,Id,[0,b("32768"),Ic]]);var
+aQ=Z(G6,af(z(a,Ie))),aR=Z(ab,af(z($,If))),aS=Z(ab,af(z($,Ig))),aT=ac(ck,z(t,Ih));return[3,Z(ba,af(z(t,Ii))),aT,ad,ae,aS,aR,aQ]}}return at([0,H1,[0,c[1],H0]])}throw aa}var
+ag=am(m[2]),u=cG(ab,bm(ag,Ij)),aV=function(f){var
+a=eu(f),b=a[1];if(p(b,Ik)){if(p(b,Il)){if(p(b,Im)){if(p(b,In))throw aa;var
+d=a[2],g=ab(z(am(d),Io));return[3,ab(z(am(d),Ip)),g]}var
+h=a[2],c=function(a){return dM(ab,z(am(h),a))},i=c(Iq),j=c(Ir);return[1,c(Is),j,i]}var
+e=dM(ab,a[2]);return[0,e[1],e[2]]}return[2,ab(a[2])]},v=cG(aV,bm(a,It)),ah=p(d,Iu),ai=ah?p(d,Iv)?2:1:ah,w=af(z(ag,Iw));if(u&&v&&eE(r1,w)){var
 aW=function(c){var
 a=am(c);function
-b(b){return Z(ck,af(z(a,b)))}if(0!==bm(a,It))at(Iu);var
-d=b(Iv);return[0,b(Iw),d]},aX=Z(G4,af(z(a,Ix))),aY=v[1],aZ=lF(c),a0=u[1];return[2,ai,Z(aW,w),a0,aZ,aY,F,aX]}s(0);var
-as=0;if(!u&&aM(d,IA)){var
+b(b){return Z(ck,af(z(a,b)))}if(0!==bm(a,Ix))at(Iy);var
+d=b(Iz);return[0,b(IA),d]},aX=Z(G8,af(z(a,IB))),aY=v[1],aZ=lH(c),a0=u[1];return[2,ai,Z(aW,w),a0,aZ,aY,F,aX]}s(0);var
+as=0;if(!u&&aM(d,IE)){var
 aj=1;as=1}if(!as)var
 aj=[0,ai];var
-ak=0!==v?1:0,a1=ak?aT(rZ,w):ak;if(a1)at(Iy);var
-a2=Z(lE,af(z(a,Iz))),a3=lF(c);return[1,aj,Z(rY,w),u,a3,v,a2]}var
+ak=0!==v?1:0,a1=ak?aU(r1,w):ak;if(a1)at(IC);var
+a2=Z(lG,af(z(a,ID))),a3=lH(c);return[1,aj,Z(r0,w),u,a3,v,a2]}var
 x=am(j[2]);function
 a4(b){var
-a=am(b),c=ab(z(a,IB)),d=[0,ab(z(a,IC)),c];return[0,ba(z(a,ID)),d]}var
-o=lG([0,[0,[0,IF,z(x,IE)],0]]);if(0===o[0]&&!o[3]){var
-al=o[4];if(!aT(cj,al)){var
-a5=ab(z(x,IH)),a6=ab(z(x,II)),a7=o[2],a8=o[1];return[7,Z(a4,af(z(x,IJ))),a8,a7,al,a6,a5]}}return at(IG)}function
+a=am(b),c=ab(z(a,IF)),d=[0,ab(z(a,IG)),c];return[0,ba(z(a,IH)),d]}var
+o=lI([0,[0,[0,IJ,z(x,II)],0]]);if(0===o[0]&&!o[3]){var
+al=o[4];if(!aU(cj,al)){var
+a5=ab(z(x,IL)),a6=ab(z(x,IM)),a7=o[2],a8=o[1];return[7,Z(a4,af(z(x,IN))),a8,a7,al,a6,a5]}}return at(IK)}function
 ew(a){return Z(fl,af(a))}function
-iJ(c,b){var
-a=ew(b);if(cM(a)!==c)throw aa;return a}function
-r2(a,d){var
-b=am(d),e=af(z(b,IM)),f=a[2],c=Z(function(a){return iJ(f,a)},e),g=a[1];if(cM(c)!==g)throw aa;return[0,c,db(z(b,IN))]}function
+iK(c,b){var
+a=ew(b);if(cN(a)!==c)throw aa;return a}function
+r4(a,d){var
+b=am(d),e=af(z(b,IQ)),f=a[2],c=Z(function(a){return iK(f,a)},e),g=a[1];if(cN(c)!==g)throw aa;return[0,c,db(z(b,IR))]}function
 dd(aC,i){var
 aA=0;if(0===i[0]){var
 q=i[1];if(q){var
-_=q[1];if(!p(_[1],IO)){var
-ap=_[2];if(0===ap[0]){var
-Q=ap[1];if(Q){var
-aq=Q[1];if(!p(aq[1],Ji)){var
+_=q[1];if(!p(_[1],IS)){var
+ao=_[2];if(0===ao[0]){var
+Q=ao[1];if(Q){var
+aq=Q[1];if(!p(aq[1],Jm)){var
 ar=aq[2];if(1===ar[0]){var
 R=ar[1];if(R){var
 as=R[1];if(1===as[0]){var
 au=as[1];if(au&&!au[2]&&!R[2]){var
 av=Q[2];if(av&&!av[2]&&!q[2]){var
-g=Jj;aA=1}}}}}}}}}}}if(!aA)var
+g=Jn;aA=1}}}}}}}}}}}if(!aA)var
 g=aC;var
 r=g[2];switch(i[0]){case
 0:var
 c=i[1];if(c){var
-d=c[1],a=d[1],$=uo(a,IP),b=0;if(0<=$)if(0<$)if(p(a,IQ)){var
-e=0;if(p(a,IR)&&p(a,IS)&&p(a,IT))if(p(a,IU))if(p(a,IV))e=1;else{var
+d=c[1],a=d[1],$=uq(a,IT),b=0;if(0<=$)if(0<$)if(p(a,IU)){var
+e=0;if(p(a,IV)&&p(a,IW)&&p(a,IX))if(p(a,IY))if(p(a,IZ))e=1;else{var
 ab=d[2];if(1===ab[0]){var
 s=ab[1];if(s){var
 t=s[2];if(t){var
 u=t[2];if(u&&!u[2]){if(!c[2]){var
-aD=Z(ew,af(u[1])),aE=ba(t[1]);return[8,dd(g,s[1]),aE,aD]}b=1;e=1}else
+aD=Z(ew,af(u[1])),aF=ba(t[1]);return[8,dd(g,s[1]),aF,aD]}b=1;e=1}else
 e=1}else
 e=1}else
 e=1}else
@@ -9913,7 +9928,7 @@ ac=d[2];if(1===ac[0]){var
 v=ac[1];if(v){var
 w=v[2];if(w){var
 x=w[2];if(x&&!x[2]){if(!c[2]){var
-aF=db(x[1]),aG=Z(ew,af(w[1]));return[11,dd(g,v[1]),aG,aF]}b=1;e=1}else
+aG=db(x[1]),aH=Z(ew,af(w[1]));return[11,dd(g,v[1]),aH,aG]}b=1;e=1}else
 e=1}else
 e=1}else
 e=1}else
@@ -9934,43 +9949,43 @@ m=l[1],b=m;for(;;){var
 n=0;switch(b[0]){case
 0:var
 c=b[1];if(c){var
-q=c[1],a=q[1];if(p(a,IY)){var
-y=0;if(p(a,IZ)&&p(a,I0)&&p(a,I1)&&p(a,I2))y=1;if(!y&&!c[2])n=1}else{var
+q=c[1],a=q[1];if(p(a,I2)){var
+y=0;if(p(a,I3)&&p(a,I4)&&p(a,I5)&&p(a,I6))y=1;if(!y&&!c[2])n=1}else{var
 r=q[2];if(1===r[0]){var
 s=r[1];if(s&&!c[2]){var
 b=s[1];continue}}}}break;case
 2:var
-t=b[1];if(!p(t,I3)||!p(t,I4))n=1;break}var
+t=b[1];if(!p(t,I7)||!p(t,I8))n=1;break}var
 z=n?1:0;if(z){var
 A=dd(g,m),B=db(k[1]),C=fl(j[1]),d=m,D=[0,[0,[0,ew(i[1]),C],B],A];for(;;){var
 o=0;switch(d[0]){case
 0:var
 e=d[1];if(e){var
-u=e[1],h=u[1],f=0;if(p(h,I5))if(p(h,I6)){if(p(h,I7))f=1}else
+u=e[1],h=u[1],f=0;if(p(h,I9))if(p(h,I_)){if(p(h,I$))f=1}else
 if(e[2])f=1;else{o=1;f=1}if(!f){var
 v=u[2];if(1===v[0]){var
 w=v[1];if(w&&!e[2]){var
 d=w[1];continue}}}}break;case
-2:if(!p(d[1],I8))o=1;break}var
-E=o?1:0;return[0,E,D]}}return at(I9)}}}}}}throw aa},E=Z(aL,ag[1]),ah=aT(ao,E),aM=ah?1-eE(ao,E):ah;if(aM)at(I_);return[9,Z(aH,E)]}b=1}}else
-if(p(a,I$))if(p(a,Ja))if(p(a,Jb))if(p(a,Jc))if(p(a,Jd)){if(!p(a,Je)){if(!c[2]){var
-ai=am(d[2]),aN=af(z(ai,Jf)),aO=r+1|0,aj=Z(function(a){return iJ(aO,a)},aN);if(3===cM(aj))return[1,Jh,aj,db(z(ai,Jg))];throw aa}b=1}}else{if(!c[2]){var
-W=ba(d[2]),X=p(W,IK);if(X){if(p(W,IL))throw aa;var
+2:if(!p(d[1],Ja))o=1;break}var
+E=o?1:0;return[0,E,D]}}return at(Jb)}}}}}}throw aa},E=Z(aL,ag[1]),ah=aU(ap,E),aM=ah?1-eE(ap,E):ah;if(aM)at(Jc);return[9,Z(aE,E)]}b=1}}else
+if(p(a,Jd))if(p(a,Je))if(p(a,Jf))if(p(a,Jg))if(p(a,Jh)){if(!p(a,Ji)){if(!c[2]){var
+ai=am(d[2]),aN=af(z(ai,Jj)),aO=r+1|0,aj=Z(function(a){return iK(aO,a)},aN);if(3===cN(aj))return[1,Jl,aj,db(z(ai,Jk))];throw aa}b=1}}else{if(!c[2]){var
+W=ba(d[2]),X=p(W,IO);if(X){if(p(W,IP))throw aa;var
 Y=1}else
 var
 Y=X;return[2,Y]}b=1}else{if(!c[2]){var
 k=d[2],o=0;switch(k[0]){case
 0:var
 l=k[1];if(l){var
-aw=l[1],j=aw[1],f=0;if(p(j,Jk)&&p(j,Jl)&&p(j,Jm)&&p(j,Jn))if(p(j,Jo))f=1;else{var
+aw=l[1],j=aw[1],f=0;if(p(j,Jo)&&p(j,Jp)&&p(j,Jq)&&p(j,Jr))if(p(j,Js))f=1;else{var
 ax=aw[2];if(1===ax[0]){var
 S=ax[1];if(S){var
 m=S[1],h=0;switch(m[0]){case
 0:var
 T=m[1];if(T){var
-n=T[1][1],aB=0;if(p(n,Jq)&&p(n,Jr)&&p(n,Js)&&p(n,Jt)){f=1;h=1;aB=1}if(!aB&&T[2]){f=1;h=1}}else{f=1;h=1}break;case
+n=T[1][1],aB=0;if(p(n,Ju)&&p(n,Jv)&&p(n,Jw)&&p(n,Jx)){f=1;h=1;aB=1}if(!aB&&T[2]){f=1;h=1}}else{f=1;h=1}break;case
 2:var
-ay=m[1];if(p(ay,Ju)&&p(ay,Jv)){f=1;h=1}break;default:f=1;h=1}if(!h){var
+ay=m[1];if(p(ay,Jy)&&p(ay,Jz)){f=1;h=1}break;default:f=1;h=1}if(!h){var
 U=S[2];if(U){var
 V=U[2];if(V&&!(V[2]||l[2])){var
 aZ=db(V[1]),a0=fl(U[1]),F=[6,dd(g,m),a0,aZ];o=2;f=1}else
@@ -9979,36 +9994,36 @@ f=1}}else
 f=1}else
 f=1}if(!f&&!l[2])o=1}break;case
 2:var
-az=k[1];if(!p(az,Jw)||!p(az,Jx))o=1;break}switch(o){case
+az=k[1];if(!p(az,JA)||!p(az,JB))o=1;break}switch(o){case
 0:var
-F=at(Jp);break;case
+F=at(Jt);break;case
 1:var
 F=dd(g,k);break}return[7,F]}b=1}else{var
 ak=d[2];if(1===ak[0]){var
 G=ak[1];if(G){var
 H=G[2];if(H&&!H[2])if(c[2])b=1;else{var
-aP=H[1],aQ=G[1],A=aQ,y=function(b,a){return[3,b,a,iJ(r+1|0,aP)]};b=2}}}}else{var
+aP=H[1],aQ=G[1],A=aQ,y=function(b,a){return[3,b,a,iK(r+1|0,aP)]};b=2}}}}else{var
 al=d[2];if(1===al[0]){var
 I=al[1];if(I){var
 J=I[2];if(J){var
 K=J[2];if(K){var
 L=K[2];if(L){var
 M=L[2];if(M&&!M[2]){if(!c[2]){var
-aR=dd(g,M[1]),aS=dd(g,L[1]),aU=Z(ew,af(K[1])),aV=db(J[1]);return[10,iJ(r+1|0,I[1]),aV,aU,aS,aR]}b=1}}}}}}}else{var
+aR=dd(g,M[1]),aS=dd(g,L[1]),aT=Z(ew,af(K[1])),aV=db(J[1]);return[10,iK(r+1|0,I[1]),aV,aT,aS,aR]}b=1}}}}}}}else{var
 an=d[2];if(1===an[0]){var
 N=an[1];if(N){var
 O=N[2];if(O){var
 P=O[2];if(P&&!P[2])if(c[2])b=1;else{var
 aW=P[1],aX=O[1],aY=N[1],A=aY,y=function(b,a){var
 c=db(aW);return[4,b,a,fl(aX),c]};b=2}}}}}switch(b){case
-0:if(!c[2])return at([0,IX,[0,a,IW]]);break;case
+0:if(!c[2])return at([0,I1,[0,a,I0]]);break;case
 1:break;default:var
-ad=r2(g,A);return y(ad[1],ad[2])}}break;case
+ad=r4(g,A);return y(ad[1],ad[2])}}break;case
 2:return[0,i[1]]}throw aa}function
-r3(n){var
-b=eu(n),a=b[1];if(p(a,JA))if(p(a,JB)){var
-h=p(a,JC);if(!h)return h;if(p(a,JD)){if(!p(a,JE)){var
-c=am(b[2]),i=function(a){return Z(ab,af(z(c,a)))},j=am(z(c,JI)),o=db(z(j,JJ)),q=Z(ew,af(z(j,JK))),r=i(JL),s=i(JM);return[3,dc(z(c,JN)),s,r,q,o]}if(!p(a,JF))return[2,Z(ab,af(b[2]))]}else{var
+r5(n){var
+b=eu(n),a=b[1];if(p(a,JE))if(p(a,JF)){var
+h=p(a,JG);if(!h)return h;if(p(a,JH)){if(!p(a,JI)){var
+c=am(b[2]),i=function(a){return Z(ab,af(z(c,a)))},j=am(z(c,JM)),o=db(z(j,JN)),q=Z(ew,af(z(j,JO))),r=i(JP),s=i(JQ);return[3,dc(z(c,JR)),s,r,q,o]}if(!p(a,JJ))return[2,Z(ab,af(b[2]))]}else{var
 k=b[2];if(1===k[0]){var
 d=k[1];if(d){var
 e=d[2];if(e&&!e[2]){var
@@ -10017,29 +10032,29 @@ l=b[2];if(1===l[0]){var
 f=l[1];if(f){var
 g=f[2];if(g&&!g[2]){var
 u=Z(ew,af(g[1]));return[0,dc(f[1]),u]}}}}else{var
-m=b[2];if(1===m[0]&&!m[1])return 1}return at([0,JH,[0,a,JG]])}function
-r4(f,b){var
-a=am(b),c=af(z(a,JS)),d=Z(function(g){var
+m=b[2];if(1===m[0]&&!m[1])return 1}return at([0,JL,[0,a,JK]])}function
+r6(f,b){var
+a=am(b),c=af(z(a,JW)),d=Z(function(g){var
 a=am(g);function
 b(d,c){var
 b=bm(a,c);return b?Z(d,af(b[1])):b}var
-c=b(fl,JO),d=cF(r3,bm(a,JP)),e=cF(dc,bm(a,JQ));return[0,b(function(h){var
+c=b(fl,JS),d=cG(r5,bm(a,JT)),e=cG(dc,bm(a,JU));return[0,b(function(h){var
 b=af(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!p(c[1],Jy)){if(!a[2]){if(p(gA(e),Jz))throw aa;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!p(c[1],JC)){if(!a[2]){if(p(gB(e),JD))throw aa;d=1}}else
 d=1;if(d&&!a[2]){var
-g=dd(f,c);return[0,dc(e),g]}}}throw aa},JR),e,d,c]},c),e=bm(a,JT),g=cF(function(a){return r2(f,a)},e);return[0,rV(z(a,JU)),g,d]}function
-r5(c){var
-a=am(c),b=bm(a,JV),d=b?Z(ab,af(b[1])):b,e=r3(z(a,JW)),f=Z(ab,af(z(a,JX)));return[0,rV(z(a,JY)),f,d,e]}function
-J8(c){var
+g=dd(f,c);return[0,dc(e),g]}}}throw aa},JV),e,d,c]},c),e=bm(a,JX),g=cG(function(a){return r4(f,a)},e);return[0,rX(z(a,JY)),g,d]}function
+r7(c){var
+a=am(c),b=bm(a,JZ),d=b?Z(ab,af(b[1])):b,e=r5(z(a,J0)),f=Z(ab,af(z(a,J1)));return[0,rX(z(a,J2)),f,d,e]}function
+Ka(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-J9(b){var
+Kb(b){var
 a=b[3];if(a&&1===a[1][0])return 1;return 0}function
-J_(b){var
-c=b[1],a=b[4];if(!(1<c+sY>>>0)&&typeof
-a!=="number"&&1===a[0])return 1-h4(l(a[1]));return 10===c?1:0}function
-Kc(f){var
+Kc(b){var
+c=b[1],a=b[4];if(!(1<c+s0>>>0)&&typeof
+a!=="number"&&1===a[0])return 1-h5(l(a[1]));return 10===c?1:0}function
+Kg(f){var
 i=aI(f),b=[0,0];function
 j(a){if(b[1]<i)return be(f,b[1]);throw aa}function
 k(a){if(j(0)===a){b[1]++;return 0}throw aa}function
@@ -10054,7 +10069,7 @@ c=B(b[1],a);k(34);return c}function
 D(e,a){if(j(0)===a){b[1]++;return 0}var
 c=0;for(;;){var
 d=[0,h(e,0),c];if(44===j(0)){b[1]++;var
-c=d;continue}k(a);return je(d)}}function
+c=d;continue}k(a);return jf(d)}}function
 r(c,l){if(64<c)throw aa;var
 a=j(0),d=0;if(48<=a){if(91===a){b[1]++;var
 f=93,g=c+1|0;return[1,D(function(a){return r(g,a)},f)]}if(123===a){b[1]++;var
@@ -10062,10 +10077,10 @@ h=125;return[0,D(function(b){var
 a=C(0);k(58);return[0,a,r(c+1|0,0)]},h)]}if(!(58<=a))d=1}else{if(34===a)return[2,C(0)];if(45===a)d=1}if(d){var
 i=b[1];b[1]++;var
 e=B(i,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c});if(p(e,Fo))return[3,e];throw aa}throw aa}var
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c});if(p(e,Fs))return[3,e];throw aa}throw aa}var
 R=r(0,0),E=b[1]<i?1:0,S=E?10===be(f,b[1])?1:0:E;if(S)b[1]++;if(b[1]<i)throw aa;var
-o=am(R);if(p(ba(z(o,Kd)),Ke))throw aa;var
-a=lG(z(o,Kf)),w=0;switch(a[0]){case
+o=am(R);if(p(ba(z(o,Kh)),Ki))throw aa;var
+a=lI(z(o,Kj)),w=0;switch(a[0]){case
 1:var
 u=a[1],x=0;if(typeof
 u==="number")if(u)var
@@ -10075,49 +10090,49 @@ if(1===u[1])var
 v=6;else
 x=1;if(x)var
 v=3;var
-e=[0,cM(a[2]),v];break;case
+e=[0,cN(a[2]),v];break;case
 2:var
-ai=1===a[1]?6:3,e=[0,cM(a[2]),ai];break;case
+ai=1===a[1]?6:3,e=[0,cN(a[2]),ai];break;case
 3:var
-aj=cM(a[1]),e=[0,cM(a[4]),aj];break;case
+aj=cN(a[1]),e=[0,cN(a[4]),aj];break;case
 7:var
 F=a[2];w=1;break;case
 0:case
 5:var
 F=a[1];w=1;break;default:var
-e=Kx}if(w)var
-e=[0,cM(F),3];var
-l=eu(z(o,Kg)),m=l[1];if(p(m,J3))if(p(m,J4))if(p(m,J5))var
-c=at([0,J7,[0,m,J6]]);else
+e=KB}if(w)var
+e=[0,cN(F),3];var
+l=eu(z(o,Kk)),m=l[1];if(p(m,J7))if(p(m,J8))if(p(m,J9))var
+c=at([0,J$,[0,m,J_]]);else
 var
-n=r5(l[2]),c=[1,n[1],n[2],n[3],n[4]];else
+n=r7(l[2]),c=[1,n[1],n[2],n[3],n[4]];else
 var
-s=r4(e,l[2]),c=[0,s[1],s[2],s[3]];else
+s=r6(e,l[2]),c=[0,s[1],s[2],s[3]];else
 var
 T=af(l[2]),c=[2,Z(function(g){var
-a=eu(g),b=a[1];if(p(b,JZ)){if(p(b,J0)){if(p(b,J1)){var
-f=p(b,J2);if(f)throw aa;return f}return[0,dc(a[2])]}var
-c=r5(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=r4(e,a[2]);return[1,d[1],d[2],d[3]]},T)];function
+a=eu(g),b=a[1];if(p(b,J3)){if(p(b,J4)){if(p(b,J5)){var
+f=p(b,J6);if(f)throw aa;return f}return[0,dc(a[2])]}var
+c=r7(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=r6(e,a[2]);return[1,d[1],d[2],d[3]]},T)];function
 U(a){return 10===a[1]?1:0}function
-G(a){return aT(U,a)}function
+G(a){return aU(U,a)}function
 V(a){return 0!==a[3]?1:0}function
-H(a){return aT(V,a)}var
+H(a){return aU(V,a)}var
 d=0;switch(a[0]){case
 0:if(0===c[0]){var
 J=a[4],I=a[1];d=3}else
 d=2;break;case
 1:if(0===c[0]){var
-Y=c[3];if(aT(function(a){var
-b=a[1];return aT(function(a){switch(a[2][0]){case
+Y=c[3];if(aU(function(a){var
+b=a[1];return aU(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},Y))at(Ko);else{var
+7:return 1;default:return 0}},b)},Y))at(Ks);else{var
 O=0;if(G(a[6])){var
-_=a[2];if(aT(function(a){return 2===a[0]?1:0},_)){at(Kp);O=1}}if(!O)d=1}}else
+_=a[2];if(aU(function(a){return 2===a[0]?1:0},_)){at(Kt);O=1}}if(!O)d=1}}else
 d=2;break;case
 2:var
 L=a[1],$=a[7];if(0===c[0]){var
-ab=1===L?6:3,M=cM(a[2])===ab?1:0;if(M){var
+ab=1===L?6:3,M=cN(a[2])===ab?1:0;if(M){var
 P=0;if(2<=L||!(0===a[4][0]))P=1;else
 var
 t=1;if(P)var
@@ -10127,74 +10142,74 @@ t=M;var
 N=function(c){if(8===c[0]){var
 d=c[1];if(7===d[0]){var
 a=d[1],b=0;switch(a[0]){case
-1:if(!p(a[1],Kq))b=1;break;case
+1:if(!p(a[1],Ku))b=1;break;case
 6:var
-e=a[1];if(1===e[0]&&!p(e[1],Kr))b=1;break}if(b)return t}}return 0},ac=function(a){if(a[1])switch(a[2][0]){case
+e=a[1];if(1===e[0]&&!p(e[1],Kv))b=1;break}if(b)return t}}return 0},ac=function(a){if(a[1])switch(a[2][0]){case
 8:case
 9:return 1}else{var
 b=a[2];switch(b[0]){case
 8:return 1-N(b);case
 9:var
-c=b[1];return 1-eE(function(a){return N(a[2])},c)}}return 0},ad=c[3],ak=0;if(aT(function(a){return aT(ac,a[1])},ad))at(Ks);else{var
+c=b[1];return 1-eE(function(a){return N(a[2])},c)}}return 0},ad=c[3],ak=0;if(aU(function(a){return aU(ac,a[1])},ad))at(Kw);else{var
 ae=c[3];if(eE(function(a){var
 b=a[1];return eE(function(d){var
 b=d[2],a=0;switch(b[0]){case
 0:var
-c=b[1];if(p(c,J$)){if(!p(c,Ka))return aT(J_,$)}else
+c=b[1];if(p(c,Kd)){if(!p(c,Ke))return aU(Kc,$)}else
 a=1;break;case
-1:if(!p(b[1],Kb))a=1;break;case
+1:if(!p(b[1],Kf))a=1;break;case
 7:case
 8:case
 9:a=1;break}return a?1:0},b)},ae)){d=1;ak=1}else
-at(Kt)}}else
+at(Kx)}}else
 d=2;break;case
-5:if(aT(J8,a[4]))at(Ku);else
+5:if(aU(Ka,a[4]))at(Ky);else
 if(0===c[0]){var
-ag=c[3];if(aT(function(a){return 0!==a[1]?1:0},ag))at(Kv);else
+ag=c[3];if(aU(function(a){return 0!==a[1]?1:0},ag))at(Kz);else
 d=1}else
 d=1;break;case
 7:var
 y=0;if(2===c[0]){var
-ah=c[1];if(aT(function(a){if(typeof
+ah=c[1];if(aU(function(a){if(typeof
 a!=="number"&&2===a[0]){var
 b=a[4];if(typeof
-b!=="number"&&3===b[0])return 1}return 0},ah))at(Kw);else
+b!=="number"&&3===b[0])return 1}return 0},ah))at(KA);else
 y=1}else
 y=1;if(y){var
 J=a[4],I=a[2];d=3}break;default:d=1}var
 q=0;switch(d){case
 0:break;case
 3:var
-Q=0;if(G(J)&&aT(function(a){return 2===a[0]?1:0},I)){at(Kh);Q=1}if(!Q)q=2;break;case
+Q=0;if(G(J)&&aU(function(a){return 2===a[0]?1:0},I)){at(Kl);Q=1}if(!Q)q=2;break;case
 1:q=2;break;default:q=1}var
 A=0;switch(q){case
 2:var
 g=0;switch(a[0]){case
 5:case
-7:if(aT(J9,a[4])){at(Km);g=1}else
+7:if(aU(Kb,a[4])){at(Kq);g=1}else
 if(7===a[0])switch(c[0]){case
 2:var
 X=function(a){if(typeof
-a!=="number"&&1===a[0])return H(a[3]);return 0};if(aT(X,c[1]))at(Kn);g=1;break;case
+a!=="number"&&1===a[0])return H(a[3]);return 0};if(aU(X,c[1]))at(Kr);g=1;break;case
 0:break;default:A=1;g=1}else
-g=1;break}if(!g)if(0===c[0]&&H(c[3]))at(Kl);else
+g=1;break}if(!g)if(0===c[0]&&H(c[3]))at(Kp);else
 A=1;break;case
 1:A=1;break}var
-K=am(z(o,Ki)),W=ba(z(K,Kj));return[0,a,c,ba(z(K,Kk)),W]}function
-Ky(b){var
-a=0,f=mm(64,aI(b))-18|0;for(;;){var
+K=am(z(o,Km)),W=ba(z(K,Kn));return[0,a,c,ba(z(K,Ko)),W]}function
+KC(b){var
+a=0,f=mo(64,aI(b))-18|0;for(;;){var
 c=a<=f?1:0;if(c){var
-d=aM(eF(b,a,18),Kz);if(!d){var
+d=aM(eF(b,a,18),KD);if(!d){var
 a=a+1|0;continue}var
 e=d}else
 var
-e=c;return e}}Mi(function(b){try{if(Ky(b))var
-a=KB;else{try{var
-e=0,d=Kc(b);e=1}catch(a){a=uq(a);if(a[1]===rU)var
+e=c;return e}}Mm(function(b){try{if(KC(b))var
+a=KF;else{try{var
+e=0,d=Kg(b);e=1}catch(a){a=us(a);if(a[1]===rW)var
 c=[0,a[2]];else{if(a!==aa)throw a;var
 c=2}}if(e)var
-c=Fk(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return KA}if(typeof
+c=Fo(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return KE}if(typeof
 a==="number")switch(a){case
-0:return KC;case
-1:return KD;default:return KE}return bo(KF,a[1])});mo(0);return}(globalThis));
+0:return KG;case
+1:return KH;default:return KI}return bo(KJ,a[1])});mq(0);return}(globalThis));
