@@ -9,7 +9,8 @@ use super::sample::{Place, Quality, Sampler, Worst};
 use super::search::{resume, search, Branch, Ends, Outcome};
 use super::value::{alone, Bounded};
 use super::{
-    accepted, few, in_parts_of_tolerances, look_into, refuted, verify, with_derivatives, Answer,
+    accepted, few, in_few, in_parts_of_tolerances, look_into, refuted, verify, with_derivatives,
+    Answer,
 };
 use crate::search::{Budget, Control, Steps, Stop};
 use num_rational::BigRational;
@@ -379,6 +380,14 @@ fn certify(
     // Tolerances may be too wide at the worst place found already.
     let sampler = Sampler::new(claim, &problem)?;
     let point = sampler.point(&known.place.u);
+    if begun.is_none() {
+        let points = std::slice::from_ref(&point);
+        if let Some((nodes, boxes)) = in_few(&prover, points, budget, control) {
+            if let Answer::Decided { certificate, .. } = accepted(claim, &prover, nodes) {
+                return Ok(Attempt::Certified(certificate, boxes));
+            }
+        }
+    }
     let (whole, ends) = (Branch::whole(&prover), Ends { hopeless: true, ..Ends::default() });
     let mut found = None;
     if prover.holds_next_to(&point, false) {
@@ -391,7 +400,7 @@ fn certify(
         && problem.derived.is_some()
         && prover.holds_next_to(&point, true)
     {
-        let apart = search(&Apart(&prover), &whole, ends, few(budget), control);
+        let apart = search(&Apart(&prover), &whole, ends, few(&prover, budget), control);
         found = apart.filter(|apart| apart.is_proof() || apart.stop == Stop::Cancelled).or(found);
     }
     if found.as_ref().is_none_or(|found| found.stop == Stop::Hopeless)

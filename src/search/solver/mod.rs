@@ -98,8 +98,8 @@ const MOST_IN_RANGES: [usize; 2] = [8, 2000];
 const MOST_ABREAST: usize = 4096;
 /// Boxes after which directions, and what quantities change together, are looked at.
 const MOST_IN_ONE: usize = 500;
-/// Boxes with directions apart: each takes long, and few are enough where they help.
-const MOST_APART: usize = 1000;
+/// Boxes with directions apart, and of platforms that turn: each takes long, and few are enough where they help.
+const MOST_APART: [usize; 2] = [2000, 300];
 /// The greatest bound that is searched with.
 const GREATEST_BOUND: f64 = 1e60;
 /// Open boxes from whose centres a violation is looked for.
@@ -173,6 +173,12 @@ pub fn verify(
     };
     let prover = Prover::new(&derived)?;
     let whole = Branch::whole(&prover);
+    let points: Vec<Vec<f64>> = worst.iter().map(|found| sampler.point(&found.place.u)).collect();
+    let in_few = control.part(rest, |control| in_few(&prover, &points, budget, control));
+    if let Some((nodes, boxes)) = in_few {
+        let answer = control.part(checks, |_| accepted(claim, &prover, nodes));
+        return Ok(Verification { answer, worst, boxes });
+    }
     let first = Ends { hopeless: prover.problem.derived.is_some(), ..Ends::default() };
     let searched = |ends, control: &mut Control<'_>| {
         control
@@ -341,7 +347,7 @@ pub fn proof_about(
     };
     let prover = Prover::new(&problem).map_err(|_| Stop::Hopeless)?;
     let search = |control: &mut Control<'_>| match holds(prover.problem) {
-        true => from_root(&prover, budget, control),
+        true => from_root(&prover, point.as_slice(), budget, control),
         false => apart_or_in_parts(&prover, budget, control).ok_or(Stop::Hopeless),
     };
     let found = nodes.map_or_else(|| control.part(rest, search), Ok)?;
@@ -377,7 +383,7 @@ fn in_ranges(
     }
     let most = MOST_IN_RANGES[usize::from(problem.orientation.is_empty())];
     let budget = Budget { max_boxes: budget.max_boxes.min(most), ..budget };
-    let found = Prover::new(problem).map(|prover| from_root(&prover, budget, control));
+    let found = Prover::new(problem).map(|prover| from_root(&prover, &[], budget, control));
     // Second derivatives are for what ranges do not show.
     let found = found.ok().and_then(Result::ok);
     found.ok_or_else(|| Box::new(with_second_derivatives(derived)))
@@ -405,26 +411,16 @@ fn fewer(prover: &Prover<'_>, nodes: Vec<Node>, cancel: &AtomicBool) -> (Vec<Nod
 /// The nodes of a tree on which nothing is open; why there are none, if not.
 fn from_root(
     prover: &Prover<'_>,
+    points: &[Vec<f64>],
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Result<Vec<Node>, Stop> {
     let ends = Ends { hopeless: true, ..Ends::default() };
-    let whole = Branch::whole(prover);
-    let mut tried = |max_boxes: usize| {
-        let budget = Budget { max_boxes, ..budget };
-        search(prover, &whole, ends, budget, control).ok_or(Stop::Hopeless)
-    };
-    let mut found = tried(match prover.problem.derived {
-        None => budget.max_boxes,
-        Some(_) => budget.max_boxes.min(MOST_IN_ONE),
-    })?;
-    if found.stop == Stop::Exhausted && prover.problem.derived.is_some() && !found.is_proof() {
-        // Of several directions, or quantities together, far fewer may do.
-        if let Some(nodes) = apart(prover, budget, control) {
-            return Ok(nodes);
-        }
-        found = search(prover, &whole, ends, budget, control).ok_or(Stop::Hopeless)?;
+    if let Some((nodes, _)) = in_few(prover, points, budget, control) {
+        return Ok(nodes);
     }
+    let found = search(prover, &Branch::whole(prover), ends, budget, control);
+    let found = found.ok_or(Stop::Hopeless)?;
     match found.stop {
         Stop::Hopeless => apart_or_in_parts(prover, budget, control).ok_or(found.stop),
         _ if found.is_proof() => Ok(found.nodes),
@@ -432,11 +428,36 @@ fn from_root(
     }
 }
 
+/// A tree of few boxes of a problem with tolerances, and how many were tried; with directions apart, and what quantities change
+/// together, if that takes fewer and the tests hold so next to these points.
+fn in_few(
+    prover: &Prover<'_>,
+    points: &[Vec<f64>],
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Option<(Vec<Node>, usize)> {
+    let is_meant = prover.problem.derived.is_some() && prover.problem.orientation.is_empty();
+    if !is_meant || budget.max_boxes <= MOST_IN_ONE {
+        return None;
+    }
+    let (whole, few_boxes) = (Branch::whole(prover), Budget { max_boxes: MOST_IN_ONE, ..budget });
+    let found = search(prover, &whole, Ends::default(), few_boxes, control)?;
+    if found.is_proof() {
+        return Some((found.nodes, found.boxes));
+    }
+    if !points.iter().all(|point| prover.holds_next_to(point, true)) {
+        return None;
+    }
+    let nodes = apart(prover, budget, control)?;
+    let boxes = found.boxes + nodes.len();
+    Some((nodes, boxes))
+}
+
 /// The same with directions apart, where a box is hopeless without.
 fn apart(prover: &Prover<'_>, budget: Budget, control: &mut Control<'_>) -> Option<Vec<Node>> {
     prover.problem.derived.as_ref()?;
     let ends = Ends { hopeless: true, ..Ends::default() };
-    let found = search(&Apart(prover), &Branch::whole(prover), ends, few(budget), control)?;
+    let found = search(&Apart(prover), &Branch::whole(prover), ends, few(prover, budget), control)?;
     found.is_proof().then_some(found.nodes)
 }
 
@@ -470,8 +491,9 @@ fn in_parts_of_tolerances(
 }
 
 /// A budget of few boxes.
-fn few(budget: Budget) -> Budget {
-    Budget { max_boxes: budget.max_boxes.min(MOST_APART), ..budget }
+fn few(prover: &Prover<'_>, budget: Budget) -> Budget {
+    let most = MOST_APART[usize::from(!prover.problem.orientation.is_empty())];
+    Budget { max_boxes: budget.max_boxes.min(most), ..budget }
 }
 
 /// A certificate that a claim does not hold, if sampling finds a witness; none of a claim that is not
@@ -521,7 +543,7 @@ pub(crate) fn tree(
     if !points.iter().all(|point| prover.holds_next_to(point, problem.derived.is_some())) {
         return Err(Stop::Hopeless);
     }
-    let nodes = from_root(&prover, budget, control)?;
+    let nodes = from_root(&prover, points, budget, control)?;
     let mut tree = Tree { precision: 0, chords: prover.chords.clone(), nodes };
     for bits in precisions(&prover, &tree) {
         tree.precision = bits;
