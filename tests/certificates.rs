@@ -26,7 +26,7 @@ use std::sync::atomic::AtomicBool;
 use Verdict::{Certified, Refuted};
 
 /// A committed certificate: `NAME.cert.json` is the answer to `tests/designs/NAME.toml`.
-const OF_DESIGNS: [(&str, Verdict); 20] = [
+const OF_DESIGNS: [(&str, Verdict); 21] = [
     ("orthoglide-prototype", Certified),
     ("orthoglide-relaxed-1-percent", Certified),
     ("orthoglide-tolerance", Certified),
@@ -37,6 +37,7 @@ const OF_DESIGNS: [(&str, Verdict); 20] = [
     ("linear-delta-klipper-cylinder", Certified),
     ("upu-struts", Certified),
     ("tripteron", Certified),
+    ("linapod-wide-directions", Certified),
     ("delta-joint-speed", Certified),
     ("delta-parallel-margin", Certified),
     ("rotary-delta-speed", Certified),

@@ -52,6 +52,7 @@ fn it_describes_every_form_of_evidence_and_of_failure() {
         Evidence::Corner(Corner::Q2),
         Evidence::Outside,
         Evidence::Tolerances(about(Evidence::Test), "-0+1<=>".to_owned(), vec![vec![-3, i64::MAX]]),
+        Evidence::Together(about(Evidence::Test), vec![vec![], vec![i64::MIN, 1, 2]], 63),
         Evidence::Fan(vec![Part(vec![i64::MIN, 1], 1, 63, Evidence::Test)]),
         Evidence::Between(
             vec![3, 0, -1],

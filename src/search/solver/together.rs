@@ -192,13 +192,21 @@ fn lower(rows: &[Corners], bound: f64) -> Option<(Option<Multiplier>, Vec<Vec<f6
         let (a, d) = row.own.split_at(m);
         let own: Vec<f64> = a.iter().map(|a| a / d[0]).collect();
         let size = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
-        // |e s^T + s e^T| <= 2 |e| |s|, s = A - D Y/2.
+        // e s^T + s e^T <= |e| |s| (e e^T/|e|^2 + I), s = A - D Y/2.
         let lost = |off: &[f64]| {
             let s = off.iter().take(m).zip(&own).map(|(a, y)| a + 0.5 * off[m] * y.abs());
-            2.0 * size(&own) * size(&s.collect::<Vec<f64>>())
+            size(&own) * size(&s.collect::<Vec<f64>>())
         };
+        let unit = DMatrix::from_fn(m, m, |k, l| {
+            let along = own[k] * own[l] / size(&own).powi(2);
+            if k == l {
+                1.0 + along
+            } else {
+                along
+            }
+        });
         let off = lost(&row.off);
-        let mut greatest = off;
+        let mut greatest = 2.0 * off;
         for (number, corner) in row.all.iter().enumerate() {
             let (a, d) = corner.split_at(m);
             if d[0] <= 0.0 {
@@ -206,15 +214,14 @@ fn lower(rows: &[Corners], bound: f64) -> Option<(Option<Multiplier>, Vec<Vec<f6
             }
             let mut f = Affine::new(m + 1);
             f.constant[(m, m)] = 1.0;
-            for k in 0..m {
-                f.constant[(k, k)] = -off;
-                f.add(y + k, (k, m), d[0].sqrt());
-            }
+            f.constant.view_mut((0, 0), (m, m)).copy_from(&(&unit * -off));
+            (0..m).for_each(|k| f.add(y + k, (k, m), d[0].sqrt()));
             twice(&mut f, y, a);
             for (at, &entry) in entries.iter().enumerate() {
                 f.add(q + at, entry, -1.0);
             }
-            greatest = greatest.max(off + 2.0 * size(a) * size(&own) + d[0] * size(&own).powi(2));
+            greatest =
+                greatest.max(2.0 * off + 2.0 * size(a) * size(&own) + d[0] * size(&own).powi(2));
             if number < row.first {
                 all.push(f);
             } else {
@@ -222,7 +229,7 @@ fn lower(rows: &[Corners], bound: f64) -> Option<(Option<Multiplier>, Vec<Vec<f6
             }
         }
         for (sum, [there, off]) in sums.iter_mut().zip(&row.at) {
-            (0..m).for_each(|k| sum.constant[(k, k)] -= lost(off));
+            sum.constant -= &unit * lost(off);
             let d = there[m] - row.own[m];
             let change = (0..m).map(|k| there[k] - row.own[k] - d * own[k]);
             twice(sum, y, &change.collect::<Vec<f64>>());

@@ -34,6 +34,7 @@ mod scales;
 mod singular;
 mod slopes;
 mod statements;
+mod together;
 mod tolerances;
 mod turned;
 mod turned_atlas;
