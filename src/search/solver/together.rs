@@ -291,32 +291,33 @@ fn upper(rows: &[Corners], bound: f64) -> Option<Vec<Vec<f64>>> {
     let mut sums: Vec<Affine> = rows[0].at.iter().map(|_| Affine::new(n + m)).collect();
     for (i, row) in rows.iter().enumerate() {
         let (p, q, own) = (i * each, i * each + 1, i * each + 1 + m);
-        // [[d, a], [a^T, 0]].
-        let lost = |off: &[f64]| off[m] + off[..m].iter().map(|a| a * a).sum::<f64>().sqrt();
-        let off = lost(&row.off);
+        let size_of = |a: &[f64]| a.iter().take(m).map(|a| a * a).sum::<f64>().sqrt();
+        // [[d, a], [a^T, 0]] is least about (u, v) with u = -A . v/D.
+        let u = size_of(&row.own) / row.own[m];
+        let lost = |off: &[f64]| (off[m] + size_of(off) / u, size_of(off) * u);
+        let (off, off_rest) = lost(&row.off);
         let least = row.all.iter().map(|corner| corner[m]).fold(f64::INFINITY, f64::min) - off;
-        let less = row.at.iter().map(|[there, off]| row.own[m] - there[m] + lost(off));
+        let less = row.at.iter().map(|[there, off]| row.own[m] - there[m] + lost(off).0);
         let less = less.fold(0.0, f64::max);
         if least <= less {
             return None;
         }
         x[p] = 0.5 * (least + less);
-        let mut size: f64 = off;
+        let mut size: f64 = off_rest;
         for (number, corner) in row.all.iter().enumerate() {
             let mut f = Affine::new(m + 1);
             f.constant[(0, 0)] = corner[m] - off;
             f.add(p, (0, 0), -1.0);
-            for k in 0..m {
-                f.constant[(k + 1, k + 1)] = -off;
-                f.constant[(0, k + 1)] = corner[k];
-                f.constant[(k + 1, 0)] = corner[k];
+            for (k, a) in corner[..m].iter().enumerate() {
+                f.constant[(k + 1, k + 1)] = -off_rest;
+                f.constant[(0, k + 1)] = *a;
+                f.constant[(k + 1, 0)] = *a;
                 f.add(q + k, (0, k + 1), -1.0);
             }
             for (at, &(k, l)) in entries.iter().enumerate() {
                 f.add(own + at, (k + 1, l + 1), 1.0);
             }
-            let squares = corner[..m].iter().map(|a| a * a).sum::<f64>();
-            size = size.max(off + squares / (least - x[p]));
+            size = size.max(off_rest + size_of(corner).powi(2) / (least - x[p]));
             if number < row.first {
                 all.push(f);
             } else {
@@ -324,19 +325,20 @@ fn upper(rows: &[Corners], bound: f64) -> Option<Vec<Vec<f64>>> {
             }
         }
         for (sum, [there, off]) in sums.iter_mut().zip(&row.at) {
-            (0..m).for_each(|k| sum.constant[(n + k, n + k)] -= lost(off));
-            sum.constant[(i, i)] = there[m] - row.own[m] - lost(off);
+            let (off, off_rest) = lost(off);
+            let change: Vec<f64> = there.iter().zip(&row.own).map(|(x, own)| x - own).collect();
+            sum.constant[(i, i)] = change[m] - off;
             sum.add(p, (i, i), 1.0);
-            for k in 0..m {
-                sum.constant[(i, n + k)] = there[k] - row.own[k];
-                sum.constant[(n + k, i)] = there[k] - row.own[k];
+            for (k, a) in change[..m].iter().enumerate() {
+                sum.constant[(n + k, n + k)] -= off_rest;
+                sum.constant[(i, n + k)] = *a;
+                sum.constant[(n + k, i)] = *a;
                 sum.add(q + k, (i, n + k), 1.0);
             }
             for (at, &(k, l)) in entries.iter().enumerate() {
                 sum.add(own + at, (n + k, n + l), -1.0);
             }
-            let squares = (0..m).map(|k| (there[k] - row.own[k]).powi(2)).sum::<f64>();
-            size = size.max(lost(off) + squares / (x[p] - less));
+            size = size.max(off_rest + size_of(&change).powi(2) / (x[p] - less));
         }
         for (at, &(k, l)) in entries.iter().enumerate() {
             x[own + at] = if k == l { 2.0 * size } else { 0.0 };
