@@ -152,26 +152,72 @@ fn barrier(all: &[&Affine], x: &DVector<f64>, eta: f64) -> Option<f64> {
 mod tests {
     use super::*;
 
-    /// `t I < [[2, 1], [1, 2]]` where `t < 1`, and `t < x`, `x < 1/2`.
+    /// `t I < [[2, 1], [1, 2]]` where `t < 1`, and `t < x`, `x < most`.
+    fn below(most: f64) -> [Affine; 3] {
+        let mut all = [Affine::new(2), Affine::new(1), Affine::new(1)];
+        all[0].constant = DMatrix::from_row_slice(2, 2, &[2.0, 1.0, 1.0, 2.0]);
+        all[0].add(1, (0, 0), -1.0);
+        all[0].add(1, (1, 1), -1.0);
+        all[1].add(0, (0, 0), 1.0);
+        all[1].add(1, (0, 0), -1.0);
+        all[2].constant[(0, 0)] = most;
+        all[2].add(0, (0, 0), -1.0);
+        all
+    }
+
     #[test]
     fn the_greatest_value_is_found() {
-        let mut own = Affine::new(2);
-        own.constant = DMatrix::from_row_slice(2, 2, &[2.0, 1.0, 1.0, 2.0]);
-        own.add(1, (0, 0), -1.0);
-        own.add(1, (1, 1), -1.0);
-        let mut above = Affine::new(1);
-        above.add(0, (0, 0), 1.0);
-        above.add(1, (0, 0), -1.0);
-        let mut below = Affine::new(1);
-        below.constant[(0, 0)] = 0.5;
-        below.add(0, (0, 0), -1.0);
-        let start = || DVector::from_vec(vec![-1.0, -2.0]);
-        let both = [own, above];
-        assert!(more_than(&both, 1, &start(), 0.99).is_some_and(|x| x[1] > 0.99));
-        assert!(more_than(&both, 1, &start(), 1.01).is_none());
-        let [own, above] = both;
-        let all = [own, above, below];
-        assert!(more_than(&all, 2, &start(), 0.49).is_some_and(|x| x[0] < 0.5 && x[1] > 0.49));
-        assert!(more_than(&all, 2, &start(), 0.51).is_none());
+        let start = DVector::from_vec(vec![-1.0, -2.0]);
+        for (most, greatest) in [(3.0, 1.0), (0.5, 0.5)] {
+            for first in [1, 2, 3] {
+                let all = below(most);
+                let found = more_than(&all, first, &start, greatest - 0.01);
+                if first == 3 {
+                    let found = found.expect("enough");
+                    assert!(found[0] < most && found[1] > greatest - 0.01, "{found}");
+                }
+                let more = more_than(&all, first, &start, greatest + 0.01);
+                assert!(more.is_none(), "{more:?}");
+            }
+        }
+    }
+
+    /// Entries of one unknown in several places, and of several in one.
+    #[test]
+    fn derivatives_are_those_of_the_barrier() {
+        let mut own = Affine::new(3);
+        own.constant = DMatrix::identity(3, 3) * 4.0;
+        for (unknown, at, part) in [
+            (0, (0, 0), 1.0),
+            (0, (0, 1), -2.0),
+            (0, (1, 2), 0.5),
+            (1, (1, 2), 1.0),
+            (1, (2, 2), 3.0),
+        ] {
+            own.add(unknown, at, part);
+        }
+        let all = [&own];
+        let at =
+            |x: [f64; 2]| barrier(&all, &DVector::from_vec(x.to_vec()), 0.0).expect("positive");
+        let (x, h) = ([0.3, -0.2], 1e-4);
+        let (mut slope, mut hessian) = (DVector::zeros(2), DMatrix::zeros(2, 2));
+        own.derive(&DVector::from_vec(x.to_vec()), &mut slope, &mut hessian).expect("positive");
+        let moved = |i: usize, j: usize, a: f64, b: f64| {
+            let mut x = x;
+            x[i] += a * h;
+            x[j] += b * h;
+            at(x)
+        };
+        for i in 0..2 {
+            let first = (moved(i, i, 1.0, 0.0) - moved(i, i, -1.0, 0.0)) / (2.0 * h);
+            assert!((first - slope[i]).abs() < 1e-6, "{first} {}", slope[i]);
+            for j in 0..2 {
+                let ends = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)];
+                let [a, b, c, d] = ends.map(|(a, b)| moved(i, j, a, b));
+                let second = (a - b - c + d) / (4.0 * h * h);
+                let close = (second - hessian[(i, j)]).abs() < 1e-5;
+                assert!(close, "{second} {}", hessian[(i, j)]);
+            }
+        }
     }
 }
