@@ -380,7 +380,7 @@ fn certify(
     // Tolerances may be too wide at the worst place found already.
     let sampler = Sampler::new(claim, &problem)?;
     let point = sampler.point(&known.place.u);
-    if begun.is_none() {
+    if begun.is_none() && prover.holds_next_to(&point, false) {
         let points = std::slice::from_ref(&point);
         if let Some((nodes, boxes)) = in_few(&prover, points, budget, control) {
             if let Answer::Decided { certificate, .. } = accepted(claim, &prover, nodes) {
@@ -400,7 +400,7 @@ fn certify(
         && problem.derived.is_some()
         && prover.holds_next_to(&point, true)
     {
-        let apart = search(&Apart(&prover), &whole, ends, few(&prover, budget), control);
+        let apart = search(&Apart(&prover), &whole, ends, few(budget), control);
         found = apart.filter(|apart| apart.is_proof() || apart.stop == Stop::Cancelled).or(found);
     }
     if found.as_ref().is_none_or(|found| found.stop == Stop::Hopeless)

@@ -98,8 +98,9 @@ const MOST_IN_RANGES: [usize; 2] = [8, 2000];
 const MOST_ABREAST: usize = 4096;
 /// Boxes after which directions, and what quantities change together, are looked at.
 const MOST_IN_ONE: usize = 500;
-/// Boxes with directions apart, and of platforms that turn: each takes long, and few are enough where they help.
-const MOST_APART: [usize; 2] = [2000, 300];
+/// Boxes with directions apart: each takes long, and few are enough where they help; more where it is known that they do next to
+/// the worst points.
+const MOST_APART: [usize; 2] = [300, 2000];
 /// The greatest bound that is searched with.
 const GREATEST_BOUND: f64 = 1e60;
 /// Open boxes from whose centres a violation is looked for.
@@ -448,7 +449,9 @@ fn in_few(
     if !points.iter().all(|point| prover.holds_next_to(point, true)) {
         return None;
     }
-    let nodes = apart(prover, budget, control)?;
+    let most = MOST_APART[usize::from(!points.is_empty())];
+    let most = Budget { max_boxes: budget.max_boxes.min(most), ..budget };
+    let nodes = apart(prover, most, control)?;
     let boxes = found.boxes + nodes.len();
     Some((nodes, boxes))
 }
@@ -457,7 +460,7 @@ fn in_few(
 fn apart(prover: &Prover<'_>, budget: Budget, control: &mut Control<'_>) -> Option<Vec<Node>> {
     prover.problem.derived.as_ref()?;
     let ends = Ends { hopeless: true, ..Ends::default() };
-    let found = search(&Apart(prover), &Branch::whole(prover), ends, few(prover, budget), control)?;
+    let found = search(&Apart(prover), &Branch::whole(prover), ends, budget, control)?;
     found.is_proof().then_some(found.nodes)
 }
 
@@ -467,7 +470,7 @@ fn apart_or_in_parts(
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Option<Vec<Node>> {
-    apart(prover, budget, control).or_else(|| {
+    apart(prover, few(budget), control).or_else(|| {
         let found = in_parts_of_tolerances(prover, (None, 1), budget, control)?;
         found.is_proof().then_some(found.nodes)
     })
@@ -491,9 +494,8 @@ fn in_parts_of_tolerances(
 }
 
 /// A budget of few boxes.
-fn few(prover: &Prover<'_>, budget: Budget) -> Budget {
-    let most = MOST_APART[usize::from(!prover.problem.orientation.is_empty())];
-    Budget { max_boxes: budget.max_boxes.min(most), ..budget }
+fn few(budget: Budget) -> Budget {
+    Budget { max_boxes: budget.max_boxes.min(MOST_APART[0]), ..budget }
 }
 
 /// A certificate that a claim does not hold, if sampling finds a witness; none of a claim that is not
