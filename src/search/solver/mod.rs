@@ -545,7 +545,7 @@ pub(crate) fn tree(
     if !points.iter().all(|point| prover.holds_next_to(point, problem.derived.is_some())) {
         return Err(Stop::Hopeless);
     }
-    let nodes = from_root(&prover, points, budget, control)?;
+    let nodes = from_root(&prover, &[], budget, control)?;
     let mut tree = Tree { precision: 0, chords: prover.chords.clone(), nodes };
     for bits in precisions(&prover, &tree) {
         tree.precision = bits;
