@@ -380,7 +380,8 @@ fn certify(
     // Tolerances may be too wide at the worst place found already.
     let sampler = Sampler::new(claim, &problem)?;
     let point = sampler.point(&known.place.u);
-    if begun.is_none() && prover.holds_next_to(&point, false) {
+    let holds_there = prover.holds_next_to(&point, false);
+    if begun.is_none() && holds_there {
         let points = std::slice::from_ref(&point);
         if let Some((nodes, boxes)) = in_few(&prover, points, budget, control) {
             if let Answer::Decided { certificate, .. } = accepted(claim, &prover, nodes) {
@@ -390,7 +391,7 @@ fn certify(
     }
     let (whole, ends) = (Branch::whole(&prover), Ends { hopeless: true, ..Ends::default() });
     let mut found = None;
-    if prover.holds_next_to(&point, false) {
+    if holds_there {
         found = match &*begun {
             Some(before) => resume(&prover, before, ends, budget, control),
             None => search(&prover, &whole, ends, budget, control),

@@ -71,16 +71,14 @@ impl Affine {
 }
 
 /// From unknowns for which all are positive definite, others for which they are and the last unknown is more than enough;
-/// `None` where that seems not to be. At first the `first` of the matrices are looked at alone, then those too that are not
+/// `None` where that seems not to be. The first matrices are looked at alone, then those of the others too that are not
 /// positive definite there.
 pub fn more_than(
-    all: &[Affine],
-    first: usize,
+    [first, others]: [&[Affine]; 2],
     start: &DVector<f64>,
     enough: f64,
 ) -> Option<DVector<f64>> {
-    let (mut active, mut others): (Vec<&Affine>, Vec<&Affine>) =
-        (all.iter().take(first).collect(), all.iter().skip(first).collect());
+    let [mut active, mut others] = [first, others].map(|all| all.iter().collect::<Vec<_>>());
     loop {
         let x = centred(&active, start.clone(), enough)?;
         let (fail, hold): (Vec<&Affine>, Vec<&Affine>) =
@@ -171,12 +169,13 @@ mod tests {
         for (most, greatest) in [(3.0, 1.0), (0.5, 0.5)] {
             for first in [1, 2, 3] {
                 let all = below(most);
-                let found = more_than(&all, first, &start, greatest - 0.01);
+                let (own, others) = all.split_at(first);
+                let found = more_than([own, others], &start, greatest - 0.01);
                 if first == 3 {
                     let found = found.expect("enough");
                     assert!(found[0] < most && found[1] > greatest - 0.01, "{found}");
                 }
-                let more = more_than(&all, first, &start, greatest + 0.01);
+                let more = more_than([own, others], &start, greatest + 0.01);
                 assert!(more.is_none(), "{more:?}");
             }
         }

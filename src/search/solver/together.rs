@@ -26,6 +26,8 @@ const MOST: usize = 4;
 const PART: f64 = 0.02;
 /// Of so many quantities of a row all squares are looked at; of more all of them at once, and none.
 const FEW: usize = 2;
+/// So much of what is left goes to what is taken off.
+const SLACK: f64 = 0.1;
 /// Lengths of directions.
 const LENGTHS: [f64; 2] = [1024.0, 64.0];
 
@@ -250,13 +252,11 @@ fn lower(rows: &[Corners], bound: f64) -> Option<(Option<Multiplier>, Vec<Vec<f6
     x[last] = least - bound;
     x[last] -= sums.iter().map(|sum| (sum.at(&x) - sums[0].at(&x)).norm()).fold(0.0, f64::max);
     sums.append(&mut all);
-    let first = sums.len();
-    sums.append(&mut others);
-    let x = more_than(&sums, first, &x, bound)?;
+    let x = more_than([&sums, &others], &x, bound)?;
     let y = DMatrix::from_fn(rows.len(), m, |i, k| x[i * each + k]);
     let y = rounded(&y, BITS - exponent(y.amax()))?;
     let scale = (-f64::from(y.places)).exp2();
-    let slack = 0.1 * (x[last] - bound) / rows.len() as f64;
+    let slack = SLACK * (x[last] - bound) / rows.len() as f64;
     let of_row = |(i, row): (usize, &Corners)| {
         let own: Vec<f64> = y.y[i].iter().map(|y| *y as f64 * scale).collect();
         let (a, d) = row.own.split_at(m);
@@ -353,10 +353,8 @@ fn upper(rows: &[Corners], bound: f64) -> Option<Vec<Vec<f64>>> {
     }
     x[last] = -greatest;
     sums.append(&mut all);
-    let first = sums.len();
-    sums.append(&mut others);
-    let x = more_than(&sums, first, &x, 0.0)?;
-    let slack = 0.1 * x[last] / n as f64;
+    let x = more_than([&sums, &others], &x, 0.0)?;
+    let slack = SLACK * x[last] / n as f64;
     let of_row = |(i, row): (usize, &Corners)| {
         let (p, q) = (i * each, i * each + 1);
         let first = [row.own[m] - x[p]].into_iter();
