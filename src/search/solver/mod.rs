@@ -484,7 +484,7 @@ fn in_parts_of_tolerances(
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Option<Outcome> {
-    let parts = Parts::new(prover)?;
+    let parts = Parts::new(prover, point.is_none())?;
     let ends = Ends { hopeless: true, enough: Some(MOST_ABREAST) };
     let budget = Budget { max_boxes: budget.max_boxes.min(times * parts.most()), ..budget };
     if point.is_some_and(|point| !parts.hold_next_to(point, budget, control)) {

@@ -7,7 +7,7 @@ use super::rows::Rows;
 use super::search::{halved, search, Boxes, Branch, Cell, Ends, Trial};
 use crate::search::{Budget, Control};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
-use orthocert_kernel::certificate::Node;
+use orthocert_kernel::certificate::{Node, Step};
 use orthocert_kernel::formula::Formula;
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::quantity::Test;
@@ -21,6 +21,8 @@ const LEAST_LOST: f64 = 1e-9;
 /// The greatest gain of one half that counts, and the least gain that tells anything.
 const MOST_GAIN: f64 = 1e3;
 const LEAST_GAIN: f64 = 1e-3;
+/// With directions apart so much of what is lost may lack.
+const MOST_LACKING: f64 = 0.5;
 /// Of so many halvings one is of that along which formulas vary most, whatever is gained: what is left of a test is
 /// foreseen from its worst vertex and machine alone, and may be so wrongly on every box below.
 const ONE_OF: u32 = 3;
@@ -33,6 +35,8 @@ pub(super) struct Parts<'a> {
     problem: &'a Problem,
     root: Cell,
     coordinates: usize,
+    /// Whether directions are apart, where that is foreseen to help.
+    apart: bool,
     /// Those that no thread narrows at the moment.
     provers: Mutex<Vec<Prover<'a>>>,
 }
@@ -54,8 +58,8 @@ impl<'a> Parts<'a> {
         MOST_TRIED / self.root.len() / 3usize.pow(self.problem.orientation.len() as u32)
     }
 
-    /// The parts of a problem with tolerances.
-    pub fn new(prover: &Prover<'a>) -> Option<Self> {
+    /// The parts of a problem with tolerances, with directions apart if it says so.
+    pub fn new(prover: &Prover<'a>, apart: bool) -> Option<Self> {
         let problem = prover.problem;
         problem.derived.as_ref()?;
         let inputs = problem.inputs.iter().zip(prover.parameters());
@@ -69,6 +73,7 @@ impl<'a> Parts<'a> {
             problem,
             root,
             coordinates,
+            apart,
             provers: Mutex::default(),
         })
     }
@@ -145,6 +150,22 @@ impl<'a> Parts<'a> {
                 .collect()
         };
         self.narrowed(ranges, of).unwrap_or_else(|| vec![0.0; cell.len()])
+    }
+
+    /// Tries with directions apart what does not lack too much of what is lost.
+    fn with_directions_apart(&self, prover: &Prover<'a>, own: &Cell, trial: &mut Trial) {
+        let lacks = |over: &Over<'_>, o: &usize| {
+            let left = over.left_of(&self.problem.obligations[*o].test);
+            left.is_none_or(|[left, lost]| left <= -MOST_LACKING * lost)
+        };
+        let open = std::mem::take(&mut trial.open);
+        let (rest, tried): (Vec<usize>, Vec<usize>) =
+            prover.on(own, |over| open.iter().partition(|o| lacks(over, o)));
+        let found = prover.tried(own, (&tried, false), true);
+        trial.node.by.extend(found.node.by);
+        trial.node.by.sort_by_key(|Step(o, _)| *o);
+        trial.open = [rest, found.open].concat();
+        trial.open.sort_unstable();
     }
 
     /// How many halvings lead from the root to a box.
@@ -227,9 +248,12 @@ impl Boxes for Parts<'_> {
             open.iter().partition(|&o| !whole && of_whole(o));
         let found = self.narrowed(ranges, |prover| {
             let mut trial = prover.tried(&own, (&now, false), false);
+            if self.apart {
+                self.with_directions_apart(prover, &own, &mut trial);
+            }
             if !trial.open.is_empty() {
                 prover.checker.narrow(&centre(ranges));
-                trial.hopeless = prover.is_hopeless(&own, &trial.open, false);
+                trial.hopeless = prover.is_hopeless(&own, &trial.open, self.apart);
             }
             trial
         });
