@@ -129,8 +129,8 @@ impl<'a> Parts<'a> {
         self.variations(cell, open)
     }
 
-    /// By how much, about, what is open varies along each coordinate, and with each range; where that is not known, what part
-    /// each is of its whole.
+    /// By how much, about, what is open varies along each coordinate, and with each range; where that is not known, as none
+    /// of the derivatives is defined over so wide tolerances, how wide each is.
     fn variations(&self, cell: &Cell, open: &[usize]) -> Vec<f64> {
         let (own, ranges) = cell.split_at(self.coordinates);
         let numbers: Vec<usize> = self.numbers().collect();
@@ -143,11 +143,7 @@ impl<'a> Parts<'a> {
             if weights.iter().any(|weight| *weight > 0.0) {
                 return weights;
             }
-            let whole = prover.root.iter().chain(&self.root[self.coordinates..]);
-            cell.iter()
-                .zip(whole)
-                .map(|(own, whole)| (own.1 - own.0) / (whole.1 - whole.0))
-                .collect()
+            cell.iter().map(|own| own.1 - own.0).collect()
         };
         self.narrowed(ranges, of).unwrap_or_else(|| vec![0.0; cell.len()])
     }
