@@ -117,8 +117,10 @@ pub fn enclose(
             let step = width * known.size()?;
             let outer = end(extreme, known.value, &step, 2).ok_or(NotEnclosed::Undecided)?;
             let outer_claim = extreme.claim(claim, &outer).ok_or(NotEnclosed::Undecided)?;
+            let is_loosest = *width == loosest();
             let found = steps.next(control, 2, |control| {
-                certify(&outer_claim, &mut known, extreme, &mut begun, budget, control)
+                let how = (&mut begun, is_loosest);
+                certify(&outer_claim, &mut known, extreme, how, budget, control)
             });
             let (certified, boxes) = match found? {
                 Attempt::Certified(certified, boxes) => (certified, boxes),
@@ -250,6 +252,8 @@ struct Found {
     value: f64,
     /// What widths are relative to, beside the value.
     least_size: f64,
+    /// Whether tolerances in parts have directions apart: where without no width is shown.
+    apart: bool,
 }
 
 impl Found {
@@ -282,7 +286,7 @@ impl Found {
                 break;
             }
             let least_size = extreme.size(&claim, &problem, &sampler, value);
-            best = Some(Found { place, value, least_size });
+            best = Some(Found { place, value, least_size, apart: false });
             let value = BigRational::from_f64(value);
             match value.and_then(|value| extreme.well_formed(probe, &value)) {
                 Some(tight) => claim = tight,
@@ -371,7 +375,7 @@ fn certify(
     claim: &MachineClaim,
     known: &mut Found,
     extreme: &Extreme,
-    begun: &mut Option<Outcome>,
+    (begun, is_loosest): (&mut Option<Outcome>, bool),
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Result<Attempt, NotEnclosed> {
@@ -408,9 +412,16 @@ fn certify(
         && problem.orientation.len() <= 1
     {
         let about = (Some(&point[..]), TIMES_IN_PARTS);
-        let parts = in_parts_of_tolerances(&prover, about, budget, control);
-        let ended = |parts: &Outcome| parts.is_proof() || parts.stop == Stop::Cancelled;
-        found = parts.filter(ended).or(found);
+        let mut ended = |apart: bool| {
+            let parts = in_parts_of_tolerances(&prover, about, apart, budget, control)?;
+            (parts.is_proof() || parts.stop == Stop::Cancelled).then_some(parts)
+        };
+        let mut parts = ended(known.apart);
+        if parts.is_none() && is_loosest && !known.apart {
+            known.apart = true;
+            parts = ended(true);
+        }
+        found = parts.or(found);
     }
     let Some(found) = found else { return Ok(Attempt::Undecided(Stop::Hopeless)) };
     if found.stop == Stop::Cancelled {
@@ -420,7 +431,7 @@ fn certify(
         return Ok(match accepted(claim, &prover, found.nodes) {
             Answer::Decided { certificate, .. } => Attempt::Certified(certificate, found.boxes),
             Answer::Undecided(_) | Answer::Cancelled if begun.take().is_some() => {
-                return certify(claim, known, extreme, begun, budget, control);
+                return certify(claim, known, extreme, (begun, is_loosest), budget, control);
             }
             Answer::Undecided(_) | Answer::Cancelled => Attempt::Undecided(Stop::Hopeless),
         });

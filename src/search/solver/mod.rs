@@ -471,20 +471,21 @@ fn apart_or_in_parts(
     control: &mut Control<'_>,
 ) -> Option<Vec<Node>> {
     apart(prover, few(budget), control).or_else(|| {
-        let found = in_parts_of_tolerances(prover, (None, 1), budget, control)?;
+        let found = in_parts_of_tolerances(prover, (None, 1), true, budget, control)?;
         found.is_proof().then_some(found.nodes)
     })
 }
 
 /// The same with tolerances in parts, where no box of the workspace is small enough; of so many times the boxes that are
-/// worth it, and where a point is given only if the tests hold next to it.
+/// worth it, and where a point is given only if the tests hold next to it; with directions apart if it says so.
 fn in_parts_of_tolerances(
     prover: &Prover<'_>,
     (point, times): (Option<&[f64]>, usize),
+    apart: bool,
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Option<Outcome> {
-    let parts = Parts::new(prover, point.is_none())?;
+    let parts = Parts::new(prover, apart)?;
     let ends = Ends { hopeless: true, enough: Some(MOST_ABREAST) };
     let budget = Budget { max_boxes: budget.max_boxes.min(times * parts.most()), ..budget };
     if point.is_some_and(|point| !parts.hold_next_to(point, budget, control)) {
