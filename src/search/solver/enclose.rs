@@ -10,7 +10,7 @@ use super::search::{resume, search, Branch, Ends, Outcome};
 use super::value::{alone, Bounded};
 use super::{
     accepted, few, in_few, in_parts_of_tolerances, look_into, refuted, verify, with_derivatives,
-    Answer,
+    Answer, MOST_APART,
 };
 use crate::search::{Budget, Control, Steps, Stop};
 use num_rational::BigRational;
@@ -387,7 +387,7 @@ fn certify(
     let holds_there = prover.holds_next_to(&point, false);
     if begun.is_none() && holds_there {
         let points = std::slice::from_ref(&point);
-        if let Some((nodes, boxes)) = in_few(&prover, points, budget, control) {
+        if let Some((nodes, boxes)) = in_few(&prover, (points, MOST_APART[0]), budget, control) {
             if let Answer::Decided { certificate, .. } = accepted(claim, &prover, nodes) {
                 return Ok(Attempt::Certified(certificate, boxes));
             }
@@ -413,6 +413,7 @@ fn certify(
     {
         let about = (Some(&point[..]), TIMES_IN_PARTS);
         let mut ended = |apart: bool| {
+            let budget = if apart { few(budget) } else { budget };
             let parts = in_parts_of_tolerances(&prover, about, apart, budget, control)?;
             (parts.is_proof() || parts.stop == Stop::Cancelled).then_some(parts)
         };

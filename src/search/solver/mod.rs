@@ -175,7 +175,8 @@ pub fn verify(
     let prover = Prover::new(&derived)?;
     let whole = Branch::whole(&prover);
     let points: Vec<Vec<f64>> = worst.iter().map(|found| sampler.point(&found.place.u)).collect();
-    let in_few = control.part(rest, |control| in_few(&prover, &points, budget, control));
+    let in_few =
+        control.part(rest, |control| in_few(&prover, (&points, MOST_APART[1]), budget, control));
     if let Some((nodes, boxes)) = in_few {
         let answer = control.part(checks, |_| accepted(claim, &prover, nodes));
         return Ok(Verification { answer, worst, boxes });
@@ -417,7 +418,8 @@ fn from_root(
     control: &mut Control<'_>,
 ) -> Result<Vec<Node>, Stop> {
     let ends = Ends { hopeless: true, ..Ends::default() };
-    if let Some((nodes, _)) = in_few(prover, points, budget, control) {
+    let most = MOST_APART[usize::from(!points.is_empty())];
+    if let Some((nodes, _)) = in_few(prover, (points, most), budget, control) {
         return Ok(nodes);
     }
     let found = search(prover, &Branch::whole(prover), ends, budget, control);
@@ -430,10 +432,10 @@ fn from_root(
 }
 
 /// A tree of few boxes of a problem with tolerances, and how many were tried; with directions apart, and what quantities change
-/// together, if that takes fewer and the tests hold so next to these points.
+/// together, in so many boxes if the tests hold so next to these points.
 fn in_few(
     prover: &Prover<'_>,
-    points: &[Vec<f64>],
+    (points, most): (&[Vec<f64>], usize),
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Option<(Vec<Node>, usize)> {
@@ -449,7 +451,6 @@ fn in_few(
     if !points.iter().all(|point| prover.holds_next_to(point, true)) {
         return None;
     }
-    let most = MOST_APART[usize::from(!points.is_empty())];
     let most = Budget { max_boxes: budget.max_boxes.min(most), ..budget };
     let nodes = apart(prover, most, control)?;
     let boxes = found.boxes + nodes.len();
