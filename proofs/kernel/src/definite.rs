@@ -1,6 +1,7 @@
 //! Positive definiteness of symmetric interval matrices.
 
 use crate::arithmetic::Enclosure;
+use crate::cell::Vertex;
 use crate::few::Few;
 use crate::slope::MOST_COORDINATES;
 
@@ -51,6 +52,23 @@ impl<N: Clone + Default> Triangle<N> {
                 *entry = of(i, j, entry)?;
             }
             rest = below;
+        }
+        Some(())
+    }
+
+    /// Adds the first of these, and each other one as the vertex has it, subtracted or not.
+    #[inline]
+    pub(crate) fn add_signed<E: Enclosure<Number = N>>(
+        &mut self,
+        e: &E,
+        parts: &[Self],
+        v: Vertex,
+    ) -> Option<()> {
+        for (k, part) in parts.iter().enumerate() {
+            let is_added = k.checked_sub(1).is_none_or(|k| v.has(k));
+            for (own, other) in self.entries.iter_mut().zip(part.entries.iter()) {
+                *own = if is_added { e.add(own, other)? } else { e.sub(own, other)? };
+            }
         }
         Some(())
     }

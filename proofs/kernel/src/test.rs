@@ -363,10 +363,10 @@ impl<E: Enclosure> Over<'_, E> {
         kappa_squared: AtVertex<'_, E::Number>,
         evidence: &Multiplier,
     ) -> bool {
-        let e = self.slopes.arithmetic;
+        let (e, parts) = (self.slopes.arithmetic, self.lower_parts(rows, evidence));
         self.at_vertices(rows, |v| {
             let rest = self.less_inside(e.neg(&kappa_squared(v)?)?, v)?;
-            self.is_lower(rows, v, &rest, (evidence, true))
+            self.is_lower(rows, v, &rest, (evidence, true), parts.as_deref())
         })
     }
 
@@ -379,7 +379,60 @@ impl<E: Enclosure> Over<'_, E> {
     pub fn full_rank(&self, rows: &[Row<Formula>], evidence: &Multiplier) -> bool {
         self.at_vertices(rows, |v| {
             let rest = self.less_inside(self.slopes.arithmetic.integer(0)?, v)?;
-            self.is_lower(rows, v, &rest, (evidence, false))
+            self.is_lower(rows, v, &rest, (evidence, false), None)
+        })
+    }
+
+    /// `Y^T A + A^T Y - Y^T D Y` at a cell's centre, and along each coordinate: at a vertex it is not less than a sum of these,
+    /// some subtracted, which takes half as long as to make it there.
+    ///
+    /// **Lemma.** Of `D` in `[c, c'] + sum_k v_k [l_k, h_k]`, `v_k = +-1`, let `m_k` be a number, not less than the middle of
+    /// `l_k` and `h_k`. Then `D <= c' + sum_k (m_k - l_k) + sum_k v_k m_k`. *Proof.* Where `v_k = 1` it is `2 m_k - l_k >= h_k`
+    /// that stands for `h_k`; else it is `-l_k` itself. ∎
+    fn lower_parts(
+        &self,
+        rows: &[Row<Formula>],
+        evidence: &Multiplier,
+    ) -> Option<Vec<Triangle<E::Number>>> {
+        let (e, m) = (self.slopes.arithmetic, width(rows));
+        let is_one = self.controls.is_none() && self.tolerances.is_none();
+        if !is_one || self.slopes.part.is_some() || !evidence.is_of(rows.len(), m) {
+            return None;
+        }
+        let mut parts = vec![Triangle::scalar(e, m, &e.integer(0)?)?; 1 + self.slopes.m];
+        let (at_centre, along) = parts.split_first_mut()?;
+        for (row, y) in rows.iter().zip(&evidence.y) {
+            let y = (&y[..], evidence.places);
+            let (a, d) = (row.a.iter().map(|f| self.of(*f)), self.of(row.d)?);
+            let a: Vec<_> = a.collect::<Option<_>>()?;
+            let [_, mut most] = e.ends(&d.at_centre);
+            for (k, t) in along.iter_mut().enumerate() {
+                let [low, high] = e.ends(&d.slopes[k]);
+                let [_, middle] = e.ends(&e.halve(&e.add(&low, &high)?)?);
+                most = e.add(&most, &e.sub(&middle, &low)?)?;
+                let a: Vector<E::Number> = a.iter().map(|a| a.slopes[k].clone()).collect();
+                self.add_lower(t, (&a, &middle), y)?;
+            }
+            let a: Vector<E::Number> = a.iter().map(|a| a.at_centre.clone()).collect();
+            self.add_lower(at_centre, (&a, &most), y)?;
+        }
+        Some(parts)
+    }
+
+    /// Adds `Y_i^T A_i + A_i^T Y_i - D_i Y_i^T Y_i`: half is `Y_i^T z`, and half `z^T Y_i`, `z = 2 A_i - D_i Y_i`.
+    fn add_lower(
+        &self,
+        t: &mut Triangle<E::Number>,
+        (a, d): (&[E::Number], &E::Number),
+        (y, places): (&[i64], u32),
+    ) -> Option<()> {
+        let e = self.slopes.arithmetic;
+        let z = residual(e, (a, d), (y, places))?;
+        let half = |i: usize, j: usize| e.dyadic(y[i], places + 1, &z[j]);
+        t.change(|i, j, entry| {
+            let own = half(i, j)?;
+            let both = if i == j { e.add(&own, &own) } else { e.add(&own, &half(j, i)?) };
+            e.add(entry, &both?)
         })
     }
 
@@ -392,39 +445,33 @@ impl<E: Enclosure> Over<'_, E> {
         v: Vertex,
         rest: &E::Number,
         (evidence, with_d): (&Multiplier, bool),
+        parts: Option<&[Triangle<E::Number>]>,
     ) -> Option<bool> {
         let (e, m, places) = (self.slopes.arithmetic, width(rows), evidence.places);
         if !evidence.is_of(rows.len(), m) {
             return None;
         }
+        let mut t = self.start(m, rest)?;
+        if let Some(parts) = parts {
+            t.add_signed(e, parts, v)?;
+            return Some(is_positive_definite(e, &t));
+        }
         let (zero, one) = (e.integer(0)?, e.integer(1)?);
         let toward = self.toward(<[_]>::first)?;
-        let (mut t, mut all) = (self.start(m, rest)?, Vec::new());
+        let mut all = Vec::new();
         for (i, (row, y)) in rows.iter().zip(&evidence.y).enumerate() {
             let (row, changes) = self.row(i, row, v)?;
-            // 2 A_i - D_i Y_i.
-            let residual = |row: &[E::Number], d: &E::Number| -> Option<Vector<E::Number>> {
-                let d = if with_d { d } else { &zero };
-                let mut all = Vector::filled(0, Default::default);
-                for (a, &y) in row.iter().zip(y) {
-                    all.push(e.sub(&e.add(a, a)?, &e.dyadic(y, places, d)?)?);
-                }
-                Some(all)
-            };
-            // Of Y_i^T A_i + A_i^T Y_i - D_i Y_i^T Y_i half is Y_i^T z, and half z^T Y_i.
-            let [_, greatest] = e.ends(row.last()?);
-            let z = residual(&row, &greatest)?;
-            let half = |i: usize, j: usize| e.dyadic(y[i], places + 1, &z[j]);
-            t.change(|i, j, entry| {
-                let own = half(i, j)?;
-                let both = if i == j { e.add(&own, &own) } else { e.add(&own, &half(j, i)?) };
-                e.add(entry, &both?)
-            })?;
+            let (d, a) = row.split_last()?;
+            let [_, greatest] = e.ends(d);
+            let d = if with_d { &greatest } else { &zero };
+            self.add_lower(&mut t, (a, d), (y, places))?;
             if !changes.is_empty() || self.together.is_some() {
                 let fixed = y.iter().map(|&y| e.dyadic(y, places, &one));
                 let fixed: Vector<E::Number> = fixed.collect::<Option<_>>()?;
                 let half = |change: &Change<E::Number>| {
-                    let z = residual(&change.s, change.s.last()?)?;
+                    let (d, a) = change.s.split_last()?;
+                    let d = if with_d { d } else { &zero };
+                    let z = residual(e, (a, d), (y, places))?;
                     let half = z.iter().map(|z| e.halve(z)).collect::<Option<_>>()?;
                     change.of(toward.vector(e, half)?, |nu| e.neg(nu))
                 };
@@ -501,6 +548,19 @@ impl<E: Enclosure> Over<'_, E> {
         let rest = Triangle::new(m, |i, j| bordered.row(i + 1).get(j - i).cloned())?;
         Some((bordered.row(0).iter().cloned().collect(), rest))
     }
+}
+
+/// `2 A_i - D_i Y_i`.
+fn residual<E: Enclosure>(
+    e: &E,
+    (a, d): (&[E::Number], &E::Number),
+    (y, places): (&[i64], u32),
+) -> Option<Vector<E::Number>> {
+    let mut all = Vector::filled(0, Default::default);
+    for (a, &y) in a.iter().zip(y) {
+        all.push(e.sub(&e.add(a, a)?, &e.dyadic(y, places, d)?)?);
+    }
+    Some(all)
 }
 
 /// The columns of `A`.
