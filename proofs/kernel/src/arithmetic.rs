@@ -69,6 +69,8 @@ pub fn elbow<A: Arithmetic + ?Sized>(e: &A, [a, b, t]: [&A::Number; 3]) -> Optio
 
 /// Intervals: what an operation gives contains the result for all numbers in its operands.
 pub trait Enclosure: Arithmetic<Number: Default> {
+    /// Whether sums are not rounded, and everything else outward.
+    const EXACT_SUMS: bool;
     /// `1 / a`.
     fn recip(&self, a: &Self::Number) -> Option<Self::Number>;
     /// `a / 2`.

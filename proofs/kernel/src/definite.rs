@@ -56,10 +56,9 @@ impl<N: Clone + Default> Triangle<N> {
         Some(())
     }
 
-    /// Adds the first of these, and each other one as the vertex has it, subtracted or not.
-    #[inline]
-    pub(crate) fn add_signed<E: Enclosure<Number = N>>(
-        &mut self,
+    /// Adds the first of these, and each other one as the vertex has it, or subtracts it, and eliminates.
+    pub(crate) fn eliminate_with<E: Enclosure<Number = N>>(
+        mut self,
         e: &E,
         parts: &[Self],
         v: Vertex,
@@ -70,7 +69,7 @@ impl<N: Clone + Default> Triangle<N> {
                 *own = if is_added { e.add(own, other)? } else { e.sub(own, other)? };
             }
         }
-        Some(())
+        self.eliminate(e)
     }
 
     /// Eliminates each row from those below; `None` where one cannot be.

@@ -320,6 +320,8 @@ impl<Z: Integer> Arithmetic for Fixed<Z> {
 }
 
 impl<Z: Integer> Enclosure for Fixed<Z> {
+    const EXACT_SUMS: bool = true;
+
     /// `1/(x/2^bits) 2^bits = 2^(2 bits)/x` decreases on either side of zero, and is odd; there is no ratio by
     /// what is not positive.
     #[inline]

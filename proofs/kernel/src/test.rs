@@ -383,20 +383,22 @@ impl<E: Enclosure> Over<'_, E> {
         })
     }
 
-    /// `Y^T A + A^T Y - Y^T D Y` at a cell's centre, and along each coordinate: at a vertex it is not less than a sum of these,
-    /// some subtracted, which takes half as long as to make it there.
+    /// `Y^T A + A^T Y - Y^T D Y` at a cell's centre, and along each coordinate. What is shown at a vertex of their sum, some
+    /// subtracted, [`Over::is_lower`] shows, in twice the time.
     ///
-    /// **Lemma.** Of `D` in `[c, c'] + sum_k v_k [l_k, h_k]`, `v_k = +-1`, let `m_k` be a number, not less than the middle of
-    /// `l_k` and `h_k`. Then `D <= c' + sum_k (m_k - l_k) + sum_k v_k m_k`. *Proof.* Where `v_k = 1` it is `2 m_k - l_k >= h_k`
-    /// that stands for `h_k`; else it is `-l_k` itself. ∎
+    /// **Lemma.** The sum encloses what is made at the vertex itself. *Proof.* Of `D`, enclosed in
+    /// `[c, c'] + sum_k v_k [l_k, h_k]`, `v_k = +-1`, twice the upper end is `2 c' + sum_k (h_k - l_k) + sum_k v_k (h_k + l_k)`:
+    /// what stands in the parts. For the rest, sums of lower ends are not greater than the lower end of the sum, as
+    /// `floor(x) + floor(y) <= floor(x + y)`, and upper ends are the other way round. ∎ What is eliminated in larger
+    /// intervals is so in smaller ones.
     fn lower_parts(
         &self,
         rows: &[Row<Formula>],
         evidence: &Multiplier,
     ) -> Option<Vec<Triangle<E::Number>>> {
         let (e, m) = (self.slopes.arithmetic, width(rows));
-        let is_one = self.controls.is_none() && self.tolerances.is_none();
-        if !is_one || self.slopes.part.is_some() || !evidence.is_of(rows.len(), m) {
+        let is_meant = E::EXACT_SUMS && self.controls.is_none() && self.tolerances.is_none();
+        if !is_meant || self.slopes.part.is_some() || !evidence.is_of(rows.len(), m) {
             return None;
         }
         let mut parts = vec![Triangle::scalar(e, m, &e.integer(0)?)?; 1 + self.slopes.m];
@@ -405,29 +407,29 @@ impl<E: Enclosure> Over<'_, E> {
             let y = (&y[..], evidence.places);
             let (a, d) = (row.a.iter().map(|f| self.of(*f)), self.of(row.d)?);
             let a: Vec<_> = a.collect::<Option<_>>()?;
-            let [_, mut most] = e.ends(&d.at_centre);
+            let [_, most] = e.ends(&d.at_centre);
+            let mut twice = e.add(&most, &most)?;
             for (k, t) in along.iter_mut().enumerate() {
                 let [low, high] = e.ends(&d.slopes[k]);
-                let [_, middle] = e.ends(&e.halve(&e.add(&low, &high)?)?);
-                most = e.add(&most, &e.sub(&middle, &low)?)?;
+                twice = e.add(&twice, &e.sub(&high, &low)?)?;
                 let a: Vector<E::Number> = a.iter().map(|a| a.slopes[k].clone()).collect();
-                self.add_lower(t, (&a, &middle), y)?;
+                self.add_lower(t, (&a, &e.add(&high, &low)?), y)?;
             }
             let a: Vector<E::Number> = a.iter().map(|a| a.at_centre.clone()).collect();
-            self.add_lower(at_centre, (&a, &most), y)?;
+            self.add_lower(at_centre, (&a, &twice), y)?;
         }
         Some(parts)
     }
 
-    /// Adds `Y_i^T A_i + A_i^T Y_i - D_i Y_i^T Y_i`: half is `Y_i^T z`, and half `z^T Y_i`, `z = 2 A_i - D_i Y_i`.
+    /// Adds `Y_i^T A_i + A_i^T Y_i - D_i Y_i^T Y_i`, given `2 D_i`: half is `Y_i^T z`, and half `z^T Y_i`, `z = 2 A_i - D_i Y_i`.
     fn add_lower(
         &self,
         t: &mut Triangle<E::Number>,
-        (a, d): (&[E::Number], &E::Number),
+        row: (&[E::Number], &E::Number),
         (y, places): (&[i64], u32),
     ) -> Option<()> {
         let e = self.slopes.arithmetic;
-        let z = residual(e, (a, d), (y, places))?;
+        let z = residual(e, row, (y, places))?;
         let half = |i: usize, j: usize| e.dyadic(y[i], places + 1, &z[j]);
         t.change(|i, j, entry| {
             let own = half(i, j)?;
@@ -452,9 +454,8 @@ impl<E: Enclosure> Over<'_, E> {
             return None;
         }
         let mut t = self.start(m, rest)?;
-        if let Some(parts) = parts {
-            t.add_signed(e, parts, v)?;
-            return Some(is_positive_definite(e, &t));
+        if parts.is_some_and(|parts| t.clone().eliminate_with(e, parts, v).is_some()) {
+            return Some(true);
         }
         let (zero, one) = (e.integer(0)?, e.integer(1)?);
         let toward = self.toward(<[_]>::first)?;
@@ -462,16 +463,15 @@ impl<E: Enclosure> Over<'_, E> {
         for (i, (row, y)) in rows.iter().zip(&evidence.y).enumerate() {
             let (row, changes) = self.row(i, row, v)?;
             let (d, a) = row.split_last()?;
+            let twice = |d: &E::Number| if with_d { e.add(d, d) } else { Some(zero.clone()) };
             let [_, greatest] = e.ends(d);
-            let d = if with_d { &greatest } else { &zero };
-            self.add_lower(&mut t, (a, d), (y, places))?;
+            self.add_lower(&mut t, (a, &twice(&greatest)?), (y, places))?;
             if !changes.is_empty() || self.together.is_some() {
                 let fixed = y.iter().map(|&y| e.dyadic(y, places, &one));
                 let fixed: Vector<E::Number> = fixed.collect::<Option<_>>()?;
                 let half = |change: &Change<E::Number>| {
                     let (d, a) = change.s.split_last()?;
-                    let d = if with_d { d } else { &zero };
-                    let z = residual(e, (a, d), (y, places))?;
+                    let z = residual(e, (a, &twice(d)?), (y, places))?;
                     let half = z.iter().map(|z| e.halve(z)).collect::<Option<_>>()?;
                     change.of(toward.vector(e, half)?, |nu| e.neg(nu))
                 };
@@ -550,15 +550,15 @@ impl<E: Enclosure> Over<'_, E> {
     }
 }
 
-/// `2 A_i - D_i Y_i`.
+/// `2 A_i - D_i Y_i`, given `2 D_i`.
 fn residual<E: Enclosure>(
     e: &E,
-    (a, d): (&[E::Number], &E::Number),
+    (a, twice): (&[E::Number], &E::Number),
     (y, places): (&[i64], u32),
 ) -> Option<Vector<E::Number>> {
     let mut all = Vector::filled(0, Default::default);
     for (a, &y) in a.iter().zip(y) {
-        all.push(e.sub(&e.add(a, a)?, &e.dyadic(y, places, d)?)?);
+        all.push(e.sub(&e.add(a, a)?, &e.dyadic(y, places + 1, twice)?)?);
     }
     Some(all)
 }

@@ -107,6 +107,8 @@ impl Arithmetic for Doubles {
 }
 
 impl Enclosure for Doubles {
+    const EXACT_SUMS: bool = false;
+
     #[inline]
     fn recip(&self, a: &Pair) -> Option<Pair> {
         (a.0 > 0.0 || a.1 < 0.0).then(|| (1.0 / a.1, 1.0 / a.0))

@@ -251,6 +251,66 @@ fn a_leg_of_length_zero_in_a_redundant_machine() {
     assert!(!over.sigma_min(&rows, &kappa, &y(4)), "a leg of length zero");
 }
 
+/// What is shown at vertices is what FORMAT.md, 11.2, says, to the last digit: with sums over coordinates no more than that,
+/// and nothing less.
+#[test]
+fn a_bound_one_digit_too_great_at_the_worst_vertex() {
+    // A = a_0 + a_1 x_1 + a_2 x_2 and D so, with wide parameters: D is greatest where what varies it may be of either sign.
+    let fixed = Fixed::<i64>::new(30);
+    let mut tape = Tape::default();
+    let x = [tape.coordinate(0), tape.coordinate(1)];
+    let mut affine = |first: usize| {
+        let by = [1, 2].map(|k| tape.parameter(first + k));
+        let products = [0, 1].map(|k| tape.mul(by[k], x[k]));
+        let sum = tape.add(products[0], products[1]);
+        let constant = tape.parameter(first);
+        tape.add(constant, sum)
+    };
+    let (a, d) = (affine(0), affine(3));
+    let rows = [Row { a: vec![a], d }];
+    let slopes = Slopes::new(&fixed, 2);
+    let mut state = 1u64;
+    let mut next = |most: i64| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        (state >> 33) as i64 % most
+    };
+    let unit = 1i64 << 30;
+    for _ in 0..300 {
+        let around = |x: i64, w: i64| Interval { lo: x - w, hi: x + w };
+        let mut number = |x: i64| around(x + next(unit / 16), next(unit / 8));
+        let own = [4, 0, 0, 2, 0, 0].map(|x| number(x * unit));
+        let edge = || [around(0, 0), around(0, unit), around(unit, 0)];
+        let values = tape.run(
+            &slopes,
+            |k| slopes.coordinate(k, edge()),
+            |j| slopes.constant(own.get(j)?.clone()),
+        );
+        let place = Place::new(&[], [false; 2]);
+        let over = Over::new(&place, slopes, &values);
+        let (y, places) = (17 + next(30), 5);
+        let evidence = Multiplier { y: vec![vec![y]], places };
+        // floor(n y / 2^places).
+        let dyadic = |n: i64, places: u32| (n * y) >> places;
+        let at = |v: [i64; 2]| {
+            let end = |f, sign: i64| {
+                let f = values.of(f).expect("a value");
+                let term = |k: usize| match v[k] * sign > 0 {
+                    true => f.slopes[k].hi,
+                    false => -f.slopes[k].lo,
+                };
+                let start = if sign > 0 { f.at_centre.hi } else { -f.at_centre.lo };
+                start + term(0) + term(1)
+            };
+            let (least, greatest) = (-end(a, -1), end(d, 1));
+            let z = 2 * least + dyadic(-greatest, places);
+            2 * dyadic(z, places + 1)
+        };
+        let least = [[-1, -1], [1, -1], [-1, 1], [1, 1]].map(at).into_iter().min().expect("four");
+        let shown = |k: i64| over.sigma_min(&rows, &|_| Some(Interval::point(k)), &evidence);
+        assert!(least > unit / 2 && shown(least - 1) && !shown(least), "{least}");
+    }
+}
+
 #[test]
 fn the_workspace_at_the_vertices_in_place_of_its_tangent() {
     // rho = z - sqrt(4 - x^2 - y^2) with z >= 2 in a disc about the box's centre: rho_min fails at the

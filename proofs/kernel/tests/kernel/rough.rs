@@ -37,6 +37,8 @@ impl Arithmetic for Rough {
 }
 
 impl Enclosure for Rough {
+    const EXACT_SUMS: bool = false;
+
     fn recip(&self, a: &Pair) -> Option<Pair> {
         (a.0 > 0.0 || a.1 < 0.0).then(|| (1.0 / a.1, 1.0 / a.0))
     }
