@@ -154,9 +154,11 @@ impl<'a> Parts<'a> {
             let left = over.left_of(&self.problem.obligations[*o].test);
             left.is_none_or(|[left, lost]| left <= -MOST_LACKING * lost)
         };
-        let open = std::mem::take(&mut trial.open);
         let (rest, tried): (Vec<usize>, Vec<usize>) =
-            prover.on(own, |over| open.iter().partition(|o| lacks(over, o)));
+            prover.on(own, |over| trial.open.iter().partition(|o| lacks(over, o)));
+        if tried.is_empty() {
+            return;
+        }
         let found = prover.tried(own, (&tried, false), true);
         trial.node.by.extend(found.node.by);
         trial.node.by.sort_by_key(|Step(o, _)| *o);
@@ -244,7 +246,7 @@ impl Boxes for Parts<'_> {
             open.iter().partition(|&o| !whole && of_whole(o));
         let found = self.narrowed(ranges, |prover| {
             let mut trial = prover.tried(&own, (&now, false), false);
-            if self.apart {
+            if self.apart && !trial.open.is_empty() {
                 self.with_directions_apart(prover, &own, &mut trial);
             }
             if !trial.open.is_empty() {
