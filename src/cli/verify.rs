@@ -17,8 +17,9 @@ use std::time::Instant;
 /// The certificate of the built-in prototype, in the current folder.
 const PROTOTYPE: &str = "orthoglide-prototype.cert.json";
 
-/// Most boxes of a proof that leaves time for margins.
-const SHORT_PROOF: usize = 200;
+/// Most boxes of a proof that leaves time for margins: of one machine, and of those of a tolerance by what they differ by, of which
+/// each takes longer.
+const SHORT_PROOF: [usize; 2] = [200, 50];
 
 /// Its flags.
 #[derive(Debug, clap::Args)]
@@ -82,7 +83,7 @@ fn single(arguments: &Arguments, path: Option<&PathBuf>) -> Result<Status, Failu
     let (mut report, status) =
         task.run(|claim| effort.run(|control| solver::verify(claim, budget, control)))?;
     if task.table {
-        report.margins = margins(&report, &design.claim, effort);
+        report.margins = margins(&report, &design.claim, effort, budget);
     }
     match effort.format {
         Format::Json => print::json(&report)?,
@@ -94,15 +95,22 @@ fn single(arguments: &Arguments, path: Option<&PathBuf>) -> Result<Status, Failu
     Ok(status)
 }
 
-/// The certified margins of a certified design, where its proof was short.
-fn margins(report: &Report, claim: &MachineClaim, effort: &Effort) -> Vec<Margin> {
-    let short = report.proof.as_ref().is_some_and(|proof| proof.nodes <= SHORT_PROOF);
+/// The certified margins of a certified design, where its proof was short, and as far as there is time.
+fn margins(
+    report: &Report,
+    claim: &MachineClaim,
+    effort: &Effort,
+    Budget { deadline, .. }: Budget,
+) -> Vec<Margin> {
+    let short = report.proof.as_ref().is_some_and(|proof| {
+        proof.nodes <= SHORT_PROOF[usize::from(proof.rules.contains_key("tolerances"))]
+    });
     // In space, where a platform turns, margins take many times as long as the proof: `summary` has them.
     let turns = claim.orientation.as_ref().is_some_and(|o| !matches!(o, Orientation::Range(_)));
     if !short || turns {
         return Vec::new();
     }
-    let budget = Budget { max_boxes: 4 * SHORT_PROOF, deadline: None };
+    let budget = Budget { max_boxes: 4 * SHORT_PROOF[0], deadline };
     let width = BigRational::new(1.into(), 1000.into());
     let Ok(problem) = Problem::new(claim) else { return Vec::new() };
     let angular = problem.legs.iter().any(orthocert_kernel::machine::Leg::is_angular);

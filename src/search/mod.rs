@@ -22,6 +22,13 @@ pub struct Budget {
     pub deadline: Option<Instant>,
 }
 
+impl Budget {
+    /// The same, of at most so many boxes.
+    pub fn at_most(self, boxes: usize) -> Self {
+        Budget { max_boxes: self.max_boxes.min(boxes), ..self }
+    }
+}
+
 /// How far work is.
 #[derive(Clone, Copy, Debug)]
 pub struct Progress {

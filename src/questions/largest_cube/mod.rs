@@ -91,7 +91,7 @@ pub fn largest_cube(
     let Some(place) = place else {
         return Ok(Bracket::default());
     };
-    let budget = Budget { max_boxes: budget.max_boxes.min(BOXES), ..budget };
+    let budget = budget.at_most(BOXES);
     if claim.orientation.is_some() {
         return about_one_centre(claim, &place, gap, budget, control);
     }

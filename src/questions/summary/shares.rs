@@ -118,7 +118,7 @@ pub fn shares(
         given.insert("joint_error".to_owned(), vec![Expression::integer(0)]);
         Requirement { given, ..own.clone() }
     };
-    let few = Budget { max_boxes: budget.max_boxes.min(FEW), ..budget };
+    let few = budget.at_most(FEW);
     let has_error = own
         .given
         .get("joint_error")

@@ -2,16 +2,14 @@
 //!
 //! An extreme lies between a bound that is certified and one that is refuted.
 
-use super::evidence::{Apart, Prover};
+use super::evidence::Prover;
 use super::extremes::{defining, Extreme};
 use super::refute::witness_at;
 use super::sample::{Place, Quality, Sampler, Worst};
-use super::search::{resume, search, Branch, Ends, Outcome};
+use super::search::{resume, Ends, Outcome};
+use super::trees::{with_derivatives, InParts, Ways, FEW_APART};
 use super::value::{alone, Bounded};
-use super::{
-    accepted, few, in_few, in_parts_of_tolerances, look_into, refuted, verify, with_derivatives,
-    Answer, MOST_APART,
-};
+use super::{accepted, look_into, refuted, verify, Answer};
 use crate::search::{Budget, Control, Steps, Stop};
 use num_rational::BigRational;
 use num_traits::{FromPrimitive, One, Signed, Zero};
@@ -238,7 +236,7 @@ pub(crate) fn of_one_width(budget: Budget, problem: &Problem) -> Budget {
     let slower = if turns_with_tolerances(problem) { 6 } else { 1 };
     let own = MOST_BOXES[usize::from(!problem.orientation.is_empty())];
     let most = own / 3usize.pow(problem.orientation.len() as u32) / slower;
-    Budget { max_boxes: budget.max_boxes.min(most), ..budget }
+    budget.at_most(most)
 }
 
 /// Whether it is a platform that turns, of a machine with tolerances.
@@ -385,42 +383,39 @@ fn certify(
     let sampler = Sampler::new(claim, &problem)?;
     let point = sampler.point(&known.place.u);
     let holds_there = prover.holds_next_to(&point, false);
+    let points = std::slice::from_ref(&point);
+    let ways = Ways { prover: &prover, points, most_apart: FEW_APART, budget };
     if begun.is_none() && holds_there {
-        let points = std::slice::from_ref(&point);
-        if let Some((nodes, boxes)) = in_few(&prover, (points, MOST_APART[0]), budget, control) {
-            if let Answer::Decided { certificate, .. } = accepted(claim, &prover, nodes) {
-                return Ok(Attempt::Certified(certificate, boxes));
+        if let Some(found) = ways.few(control) {
+            if let Answer::Decided { certificate, .. } = accepted(claim, &prover, found.nodes) {
+                return Ok(Attempt::Certified(certificate, found.boxes));
             }
         }
     }
-    let (whole, ends) = (Branch::whole(&prover), Ends { hopeless: true, ..Ends::default() });
-    let mut found = None;
-    if holds_there {
-        found = match &*begun {
-            Some(before) => resume(&prover, before, ends, budget, control),
-            None => search(&prover, &whole, ends, budget, control),
-        };
+    let mut found = match &*begun {
+        _ if !holds_there => None,
+        Some(before) => {
+            let ends = Ends { hopeless: true, ..Ends::default() };
+            resume(&prover, before, ends, budget, control)
+        }
+        None => Some(ways.boxes(true, control)),
+    };
+    let is_hopeless =
+        |found: &Option<Outcome>| found.as_ref().is_none_or(|found| found.stop == Stop::Hopeless);
+    let ended = |found: &Outcome| found.is_proof() || found.stop == Stop::Cancelled;
+    if is_hopeless(&found) && problem.derived.is_some() && prover.holds_next_to(&point, true) {
+        found = ways.apart(FEW_APART, control).filter(ended).or(found);
     }
-    if found.as_ref().is_none_or(|found| found.stop == Stop::Hopeless)
-        && problem.derived.is_some()
-        && prover.holds_next_to(&point, true)
-    {
-        let apart = search(&Apart(&prover), &whole, ends, few(budget), control);
-        found = apart.filter(|apart| apart.is_proof() || apart.stop == Stop::Cancelled).or(found);
-    }
-    if found.as_ref().is_none_or(|found| found.stop == Stop::Hopeless)
-        && problem.orientation.len() <= 1
-    {
-        let about = (Some(&point[..]), TIMES_IN_PARTS);
-        let mut ended = |apart: bool| {
-            let budget = if apart { few(budget) } else { budget };
-            let parts = in_parts_of_tolerances(&prover, about, apart, budget, control)?;
-            (parts.is_proof() || parts.stop == Stop::Cancelled).then_some(parts)
+    if is_hopeless(&found) && problem.orientation.len() <= 1 {
+        let mut in_parts = |apart: bool| {
+            let budget = if apart { budget.at_most(FEW_APART) } else { budget };
+            let all = InParts { about: Some(&point), times: TIMES_IN_PARTS, apart };
+            Ways { budget, ..ways }.in_parts(&all, control).filter(ended)
         };
-        let mut parts = ended(known.apart);
+        let mut parts = in_parts(known.apart);
         if parts.is_none() && is_loosest && !known.apart {
             known.apart = true;
-            parts = ended(true);
+            parts = in_parts(true);
         }
         found = parts.or(found);
     }

@@ -16,6 +16,7 @@
 //! | `rows`, `directions`, `chords` | matrices, directions and the one `Y` to begin with      |
 //! | `search`   | branch and bound: a tree on whose leaves every obligation is discharged     |
 //! | `ahead`    | one of fewer leaves                                                         |
+//! | `trees`    | trees by several means, the cheapest first                                  |
 //! | [`sample`] | approximate values at single points and machines                            |
 //! | `needed`, `program` | the formulas that each of them takes, one after the other        |
 //! | `descent`, `adverse` | the worst of them                                                 |
@@ -59,13 +60,14 @@ pub mod sample;
 pub mod search;
 pub mod sector;
 mod together;
+mod trees;
 pub mod value;
 pub(crate) mod violation;
 mod weighted;
 
 use crate::search::accepted::{check, Accepted};
 use crate::search::{Budget, Control, Stop};
-use evidence::{Apart, Prover};
+use evidence::Prover;
 use num_rational::BigRational;
 use num_traits::FromPrimitive;
 use orthocert_checker::certificate::{Certificate, Proof, Provenance, Verdict, FORMAT};
@@ -75,10 +77,10 @@ use orthocert_kernel::claim::{Bound, MachineClaim};
 use orthocert_kernel::input::ClaimError;
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
-use parts::Parts;
 use sample::{Sampler, Worst};
 use search::{search, Branch, Ends, Open, Outcome};
 use std::sync::atomic::AtomicBool;
+use trees::{in_ranges, with_derivatives, Ways, FEW_APART, MOST_APART};
 
 pub use refute::{approximate, number};
 
@@ -91,16 +93,6 @@ pub(crate) const PRECISIONS: [u32; 4] = [52, 80, 128, 256];
 const GUARD: u32 = 9;
 /// The same where tolerances are apart: what little some change is divided by.
 const GUARD_APART: u32 = 22;
-/// Boxes after which tolerances are taken apart: certificates in ranges are shorter. Of platforms that turn, and of
-/// others.
-const MOST_IN_RANGES: [usize; 2] = [8, 2000];
-/// Boxes of one level with tolerances in parts.
-const MOST_ABREAST: usize = 4096;
-/// Boxes after which directions, and what quantities change together, are looked at.
-const MOST_IN_ONE: usize = 500;
-/// Boxes with directions apart: each takes long, and few are enough where they help; more where it is known that they do next to
-/// the worst points.
-const MOST_APART: [usize; 2] = [300, 2000];
 /// The greatest bound that is searched with.
 const GREATEST_BOUND: f64 = 1e60;
 /// Open boxes from whose centres a violation is looked for.
@@ -162,42 +154,23 @@ pub fn verify(
     let [ranges, rest, checks] = parts_of(&problem);
     let tighter = tighter(claim).map(|claim| Problem::new(&claim)).transpose()?;
     let own = tighter.as_ref().unwrap_or(&problem);
-    let derived = match control.part(ranges, |control| in_ranges(own, budget, control)) {
-        Ok(nodes) => {
-            let boxes = nodes.len();
-            let answer = control.part(checks, |_| {
-                Ok::<_, ClaimError>(accepted(claim, &Prover::new(own)?, nodes))
-            })?;
-            return Ok(Verification { answer, worst, boxes });
-        }
-        Err(derived) => derived,
+    let in_ranges = control.part(ranges, |control| in_ranges(own, budget, control));
+    let (searched, found) = match in_ranges {
+        Ok(found) => (own, Some(found)),
+        Err(ref derived) => (&**derived, None),
     };
-    let prover = Prover::new(&derived)?;
-    let whole = Branch::whole(&prover);
+    let prover = Prover::new(searched)?;
     let points: Vec<Vec<f64>> = worst.iter().map(|found| sampler.point(&found.place.u)).collect();
-    let in_few =
-        control.part(rest, |control| in_few(&prover, (&points, MOST_APART[1]), budget, control));
-    if let Some((nodes, boxes)) = in_few {
-        let answer = control.part(checks, |_| accepted(claim, &prover, nodes));
-        return Ok(Verification { answer, worst, boxes });
-    }
-    let first = Ends { hopeless: prover.problem.derived.is_some(), ..Ends::default() };
-    let searched = |ends, control: &mut Control<'_>| {
-        control
-            .part(rest, |control| search(&prover, &whole, ends, budget, control))
-            .expect("the root is a box of the tree")
-    };
-    let mut found = searched(first, control);
-    if found.stop == Stop::Hopeless {
-        if let Some(nodes) =
-            control.part(rest, |control| apart_or_in_parts(&prover, budget, control))
-        {
-            let boxes = found.boxes + nodes.len();
-            let answer = control.part(checks, |_| accepted(claim, &prover, nodes));
-            return Ok(Verification { answer, worst, boxes });
+    let ways = Ways { prover: &prover, points: &points, most_apart: MOST_APART, budget };
+    let search = |control: &mut Control<'_>| {
+        let found = ways.tree(searched.derived.is_some(), control);
+        // What is open is looked for where nothing is given up.
+        match found.stop {
+            Stop::Hopeless => ways.boxes(false, control),
+            _ => found,
         }
-        found = searched(Ends::default(), control);
-    }
+    };
+    let found = found.unwrap_or_else(|| control.part(rest, search));
     let boxes = found.boxes;
     if found.stop == Stop::Cancelled {
         return Ok(Verification { answer: Answer::Cancelled, worst, boxes });
@@ -343,52 +316,23 @@ pub fn proof_about(
         true => control.part(ranges, |control| in_ranges(&problem, budget, control)),
         false => Err(Box::new(with_derivatives(problem.clone()))),
     };
-    let (problem, nodes) = match in_ranges {
-        Ok(nodes) => (problem, Some(nodes)),
+    let (problem, found) = match in_ranges {
+        Ok(found) => (problem, Some(found)),
         Err(derived) => (*derived, None),
     };
     let prover = Prover::new(&problem).map_err(|_| Stop::Hopeless)?;
+    let most_apart = if point.is_some() { MOST_APART } else { FEW_APART };
+    let ways = Ways { prover: &prover, points: point.as_slice(), most_apart, budget };
     let search = |control: &mut Control<'_>| match holds(prover.problem) {
-        true => from_root(&prover, point.as_slice(), budget, control),
-        false => apart_or_in_parts(&prover, budget, control).ok_or(Stop::Hopeless),
+        true => Some(ways.tree(true, control)),
+        false => ways.apart_or_in_parts(control),
     };
-    let found = nodes.map_or_else(|| control.part(rest, search), Ok)?;
-    match control.part(checks, |_| accepted(claim, &prover, found)) {
+    let found = found.or_else(|| control.part(rest, search)).ok_or(Stop::Hopeless)?;
+    let nodes = found.proof()?;
+    match control.part(checks, |_| accepted(claim, &prover, nodes)) {
         Answer::Decided { certificate, .. } => Ok(certificate),
         Answer::Undecided(_) | Answer::Cancelled => Err(Stop::Exhausted),
     }
-}
-
-/// With derivatives by what machines differ by, and second ones.
-fn with_derivatives(problem: Problem) -> Problem {
-    with_second_derivatives(problem.with_derivatives())
-}
-
-/// With second derivatives too, of machines whose rows are tested at vertices.
-fn with_second_derivatives(problem: Problem) -> Problem {
-    if problem.legs.iter().all(|leg| leg.scaled.is_some()) {
-        return problem;
-    }
-    let by = problem.differing().collect();
-    problem.with_second_derivatives(&by)
-}
-
-/// A short tree of a problem with tolerances, in ranges; where there is none, the problem to search.
-fn in_ranges(
-    problem: &Problem,
-    budget: Budget,
-    control: &mut Control<'_>,
-) -> Result<Vec<Node>, Box<Problem>> {
-    let derived = problem.clone().with_derivatives();
-    if derived.derived.is_none() {
-        return Err(Box::new(derived));
-    }
-    let most = MOST_IN_RANGES[usize::from(problem.orientation.is_empty())];
-    let budget = Budget { max_boxes: budget.max_boxes.min(most), ..budget };
-    let found = Prover::new(problem).map(|prover| from_root(&prover, &[], budget, control));
-    // Second derivatives are for what ranges do not show.
-    let found = found.ok().and_then(Result::ok);
-    found.ok_or_else(|| Box::new(with_second_derivatives(derived)))
 }
 
 /// The problem of a claim whose tree is grown in parts, the same for all of them.
@@ -408,96 +352,6 @@ fn fewer(prover: &Prover<'_>, nodes: Vec<Node>, cancel: &AtomicBool) -> (Vec<Nod
         None => ahead::fewer(prover, nodes, cancel),
         Some(_) => (nodes, 0),
     }
-}
-
-/// The nodes of a tree on which nothing is open; why there are none, if not.
-fn from_root(
-    prover: &Prover<'_>,
-    points: &[Vec<f64>],
-    budget: Budget,
-    control: &mut Control<'_>,
-) -> Result<Vec<Node>, Stop> {
-    let ends = Ends { hopeless: true, ..Ends::default() };
-    let most = MOST_APART[usize::from(!points.is_empty())];
-    if let Some((nodes, _)) = in_few(prover, (points, most), budget, control) {
-        return Ok(nodes);
-    }
-    let found = search(prover, &Branch::whole(prover), ends, budget, control);
-    let found = found.ok_or(Stop::Hopeless)?;
-    match found.stop {
-        Stop::Hopeless => apart_or_in_parts(prover, budget, control).ok_or(found.stop),
-        _ if found.is_proof() => Ok(found.nodes),
-        stop => Err(stop),
-    }
-}
-
-/// A tree of few boxes of a problem with tolerances, and how many were tried; with directions apart, and what quantities change
-/// together, in so many boxes if the tests hold so next to these points.
-fn in_few(
-    prover: &Prover<'_>,
-    (points, most): (&[Vec<f64>], usize),
-    budget: Budget,
-    control: &mut Control<'_>,
-) -> Option<(Vec<Node>, usize)> {
-    let is_meant = prover.problem.derived.is_some() && prover.problem.orientation.is_empty();
-    if !is_meant || budget.max_boxes <= MOST_IN_ONE {
-        return None;
-    }
-    let (whole, few_boxes) = (Branch::whole(prover), Budget { max_boxes: MOST_IN_ONE, ..budget });
-    let found = search(prover, &whole, Ends::default(), few_boxes, control)?;
-    if found.is_proof() {
-        return Some((found.nodes, found.boxes));
-    }
-    if !points.iter().all(|point| prover.holds_next_to(point, true)) {
-        return None;
-    }
-    let most = Budget { max_boxes: budget.max_boxes.min(most), ..budget };
-    let nodes = apart(prover, most, control)?;
-    let boxes = found.boxes + nodes.len();
-    Some((nodes, boxes))
-}
-
-/// The same with directions apart, where a box is hopeless without.
-fn apart(prover: &Prover<'_>, budget: Budget, control: &mut Control<'_>) -> Option<Vec<Node>> {
-    prover.problem.derived.as_ref()?;
-    let ends = Ends { hopeless: true, ..Ends::default() };
-    let found = search(&Apart(prover), &Branch::whole(prover), ends, budget, control)?;
-    found.is_proof().then_some(found.nodes)
-}
-
-/// The same, or with tolerances in parts.
-fn apart_or_in_parts(
-    prover: &Prover<'_>,
-    budget: Budget,
-    control: &mut Control<'_>,
-) -> Option<Vec<Node>> {
-    apart(prover, few(budget), control).or_else(|| {
-        let found = in_parts_of_tolerances(prover, (None, 1), true, budget, control)?;
-        found.is_proof().then_some(found.nodes)
-    })
-}
-
-/// The same with tolerances in parts, where no box of the workspace is small enough; of so many times the boxes that are
-/// worth it, and where a point is given only if the tests hold next to it; with directions apart if it says so.
-fn in_parts_of_tolerances(
-    prover: &Prover<'_>,
-    (point, times): (Option<&[f64]>, usize),
-    apart: bool,
-    budget: Budget,
-    control: &mut Control<'_>,
-) -> Option<Outcome> {
-    let parts = Parts::new(prover, apart)?;
-    let ends = Ends { hopeless: true, enough: Some(MOST_ABREAST) };
-    let budget = Budget { max_boxes: budget.max_boxes.min(times * parts.most()), ..budget };
-    if point.is_some_and(|point| !parts.hold_next_to(point, budget, control)) {
-        return None;
-    }
-    search(&parts, &Branch::whole(&parts), ends, budget, control)
-}
-
-/// A budget of few boxes.
-fn few(budget: Budget) -> Budget {
-    Budget { max_boxes: budget.max_boxes.min(MOST_APART[0]), ..budget }
 }
 
 /// A certificate that a claim does not hold, if sampling finds a witness; none of a claim that is not
@@ -547,7 +401,8 @@ pub(crate) fn tree(
     if !points.iter().all(|point| prover.holds_next_to(point, problem.derived.is_some())) {
         return Err(Stop::Hopeless);
     }
-    let nodes = from_root(&prover, &[], budget, control)?;
+    let ways = Ways { prover: &prover, points: &[], most_apart: FEW_APART, budget };
+    let nodes = ways.tree(true, control).proof()?;
     let mut tree = Tree { precision: 0, chords: prover.chords.clone(), nodes };
     for bits in precisions(&prover, &tree) {
         tree.precision = bits;

@@ -103,6 +103,14 @@ impl Outcome {
     pub fn is_proof(&self) -> bool {
         self.open.is_empty() && self.stop == Stop::Exhausted
     }
+
+    /// The tree if it is a proof; why the search ended, if not.
+    pub(super) fn proof(self) -> Result<Vec<Node>, Stop> {
+        match self.is_proof() {
+            true => Ok(self.nodes),
+            false => Err(self.stop),
+        }
+    }
 }
 
 /// What became of a box.

@@ -1,0 +1,159 @@
+//! Trees on whose leaves every obligation is discharged, by several means, the cheapest first.
+//!
+//! | boxes of                                   | machines of the tolerance                     | worth it where                    |
+//! |--------------------------------------------|-----------------------------------------------|-----------------------------------|
+//! | the workspace                              | all at once, in ranges                        | always: certificates are shortest |
+//! | the workspace, few                         | by what each differs from one                 | these are enough                  |
+//! | the workspace, few                         | the same in directions apart, and together    | it holds so next to some points   |
+//! | the workspace                              | by what each differs from one                 | it holds next to each centre      |
+//! | the workspace, few                         | the same in directions apart, and together    | the last was hopeless             |
+//! | the workspace and the tolerance            | all of them                                   | this was, too                     |
+//!
+//! Without tolerances there is one way, the fourth.
+
+use super::evidence::{Apart, Prover};
+use super::parts::Parts;
+use super::search::{search, Branch, Ends, Outcome};
+use crate::search::{Budget, Control, Stop};
+use orthocert_kernel::problem::Problem;
+
+/// Boxes after which tolerances are taken apart: certificates in ranges are shorter. Of platforms that turn, and of
+/// others.
+const MOST_IN_RANGES: [usize; 2] = [8, 2000];
+/// Boxes of one level with tolerances in parts.
+const MOST_ABREAST: usize = 4096;
+/// Boxes after which directions, and what quantities change together, are looked at.
+const MOST_IN_ONE: usize = 500;
+/// Boxes with directions apart: each takes long, and few are enough where they help.
+pub(super) const FEW_APART: usize = 300;
+/// The same where it is known that they do next to the worst points.
+pub(super) const MOST_APART: usize = 2000;
+
+/// With derivatives by what machines differ by, and second ones.
+pub(super) fn with_derivatives(problem: Problem) -> Problem {
+    with_second_derivatives(problem.with_derivatives())
+}
+
+/// With second derivatives too, of machines whose rows are tested at vertices.
+fn with_second_derivatives(problem: Problem) -> Problem {
+    if problem.legs.iter().all(|leg| leg.scaled.is_some()) {
+        return problem;
+    }
+    let by = problem.differing().collect();
+    problem.with_second_derivatives(&by)
+}
+
+/// A short tree of a problem with tolerances, in ranges; where there is none, the problem to search.
+pub(super) fn in_ranges(
+    problem: &Problem,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Result<Outcome, Box<Problem>> {
+    let derived = problem.clone().with_derivatives();
+    if derived.derived.is_none() {
+        return Err(Box::new(derived));
+    }
+    let most = MOST_IN_RANGES[usize::from(problem.orientation.is_empty())];
+    let found = Prover::new(problem).map(|prover| {
+        let ways =
+            Ways { prover: &prover, points: &[], most_apart: 0, budget: budget.at_most(most) };
+        ways.boxes(true, control)
+    });
+    // Second derivatives are for what ranges do not show.
+    let found = found.ok().filter(Outcome::is_proof);
+    found.ok_or_else(|| Box::new(with_second_derivatives(derived)))
+}
+
+/// The ways to a tree of a problem.
+pub(super) struct Ways<'a, 'p> {
+    /// The problem in doubles.
+    pub prover: &'a Prover<'p>,
+    /// Where it is nearest to failing.
+    pub points: &'a [Vec<f64>],
+    /// Boxes with directions apart, if its tests hold so next to these points.
+    pub most_apart: usize,
+    /// The budget of each way.
+    pub budget: Budget,
+}
+
+/// How tolerances are taken in parts.
+pub(super) struct InParts<'a> {
+    /// A point next to which tests have to hold, with tolerances in few parts.
+    pub about: Option<&'a [f64]>,
+    /// The boxes, in those that are worth it.
+    pub times: usize,
+    /// Whether directions are apart.
+    pub apart: bool,
+}
+
+impl Ways<'_, '_> {
+    /// A proof by any of them, or what the boxes of the workspace leave open; these are given up where they are hopeless if
+    /// `hopeless` says so.
+    pub fn tree(&self, hopeless: bool, control: &mut Control<'_>) -> Outcome {
+        self.few(control).unwrap_or_else(|| {
+            let found = self.boxes(hopeless, control);
+            match found.stop {
+                Stop::Hopeless => self.apart_or_in_parts(control).unwrap_or(found),
+                _ => found,
+            }
+        })
+    }
+
+    /// Boxes of the workspace.
+    pub fn boxes(&self, hopeless: bool, control: &mut Control<'_>) -> Outcome {
+        let ends = Ends { hopeless, ..Ends::default() };
+        search(self.prover, &Branch::whole(self.prover), ends, self.budget, control)
+            .expect("the root is a box of the tree")
+    }
+
+    /// A proof of few boxes of a problem with tolerances; with directions apart if the tests hold so next to the points.
+    pub fn few(&self, control: &mut Control<'_>) -> Option<Outcome> {
+        let problem = self.prover.problem;
+        let is_meant = problem.derived.is_some() && problem.orientation.is_empty();
+        if !is_meant || self.budget.max_boxes <= MOST_IN_ONE {
+            return None;
+        }
+        let found =
+            Ways { budget: self.budget.at_most(MOST_IN_ONE), ..*self }.boxes(false, control);
+        if found.is_proof() {
+            return Some(found);
+        }
+        if !self.points.iter().all(|point| self.prover.holds_next_to(point, true)) {
+            return None;
+        }
+        let apart = self.apart(self.most_apart, control).filter(Outcome::is_proof)?;
+        Some(Outcome { boxes: found.boxes + apart.boxes, ..apart })
+    }
+
+    /// At most so many boxes of the workspace, with directions apart where one is hopeless without.
+    pub fn apart(&self, most: usize, control: &mut Control<'_>) -> Option<Outcome> {
+        self.prover.problem.derived.as_ref()?;
+        let ends = Ends { hopeless: true, ..Ends::default() };
+        let whole = Branch::whole(self.prover);
+        search(&Apart(self.prover), &whole, ends, self.budget.at_most(most), control)
+    }
+
+    /// A proof where boxes of the workspace are hopeless.
+    pub fn apart_or_in_parts(&self, control: &mut Control<'_>) -> Option<Outcome> {
+        let apart = self.apart(FEW_APART, control).filter(Outcome::is_proof);
+        apart.or_else(|| {
+            let all = InParts { about: None, times: 1, apart: true };
+            self.in_parts(&all, control).filter(Outcome::is_proof)
+        })
+    }
+
+    /// With tolerances in parts, where no box of the workspace is small enough.
+    pub fn in_parts(
+        &self,
+        InParts { about, times, apart }: &InParts<'_>,
+        control: &mut Control<'_>,
+    ) -> Option<Outcome> {
+        let parts = Parts::new(self.prover, *apart)?;
+        let ends = Ends { hopeless: true, enough: Some(MOST_ABREAST) };
+        let budget = self.budget.at_most(times * parts.most());
+        if about.is_some_and(|point| !parts.hold_next_to(point, budget, control)) {
+            return None;
+        }
+        search(&parts, &Branch::whole(&parts), ends, budget, control)
+    }
+}
