@@ -384,7 +384,7 @@ fn certify(
     let point = sampler.point(&known.place.u);
     let holds_there = prover.holds_next_to(&point, false);
     let points = std::slice::from_ref(&point);
-    let ways = Ways { prover: &prover, points, most_apart: FEW_APART, budget };
+    let ways = Ways::new(&prover, (points, FEW_APART), budget);
     if begun.is_none() && holds_there {
         if let Some(found) = ways.few(control) {
             if let Answer::Decided { certificate, .. } = accepted(claim, &prover, found.nodes) {
@@ -402,15 +402,13 @@ fn certify(
     };
     let is_hopeless =
         |found: &Option<Outcome>| found.as_ref().is_none_or(|found| found.stop == Stop::Hopeless);
-    let ended = |found: &Outcome| found.is_proof() || found.stop == Stop::Cancelled;
     if is_hopeless(&found) && problem.derived.is_some() && prover.holds_next_to(&point, true) {
-        found = ways.apart(FEW_APART, control).filter(ended).or(found);
+        found = ways.apart(FEW_APART, control).or(found);
     }
     if is_hopeless(&found) && problem.orientation.len() <= 1 {
         let mut in_parts = |apart: bool| {
-            let budget = if apart { budget.at_most(FEW_APART) } else { budget };
             let all = InParts { about: Some(&point), times: TIMES_IN_PARTS, apart };
-            Ways { budget, ..ways }.in_parts(&all, control).filter(ended)
+            ways.in_parts(&all, if apart { FEW_APART } else { usize::MAX }, control)
         };
         let mut parts = in_parts(known.apart);
         if parts.is_none() && is_loosest && !known.apart {

@@ -161,7 +161,7 @@ pub fn verify(
     };
     let prover = Prover::new(searched)?;
     let points: Vec<Vec<f64>> = worst.iter().map(|found| sampler.point(&found.place.u)).collect();
-    let ways = Ways { prover: &prover, points: &points, most_apart: MOST_APART, budget };
+    let ways = Ways::new(&prover, (&points, MOST_APART), budget);
     let search = |control: &mut Control<'_>| {
         let found = ways.tree(searched.derived.is_some(), control);
         // What is open is looked for where nothing is given up.
@@ -322,7 +322,7 @@ pub fn proof_about(
     };
     let prover = Prover::new(&problem).map_err(|_| Stop::Hopeless)?;
     let most_apart = if point.is_some() { MOST_APART } else { FEW_APART };
-    let ways = Ways { prover: &prover, points: point.as_slice(), most_apart, budget };
+    let ways = Ways::new(&prover, (point.as_slice(), most_apart), budget);
     let search = |control: &mut Control<'_>| match holds(prover.problem) {
         true => Some(ways.tree(true, control)),
         false => ways.apart_or_in_parts(control),
@@ -401,7 +401,7 @@ pub(crate) fn tree(
     if !points.iter().all(|point| prover.holds_next_to(point, problem.derived.is_some())) {
         return Err(Stop::Hopeless);
     }
-    let ways = Ways { prover: &prover, points: &[], most_apart: FEW_APART, budget };
+    let ways = Ways::new(&prover, (&[], FEW_APART), budget);
     let nodes = ways.tree(true, control).proof()?;
     let mut tree = Tree { precision: 0, chords: prover.chords.clone(), nodes };
     for bits in precisions(&prover, &tree) {

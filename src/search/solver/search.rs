@@ -104,6 +104,11 @@ impl Outcome {
         self.open.is_empty() && self.stop == Stop::Exhausted
     }
 
+    /// Whether nothing else is to be tried: it is a proof, or was cancelled.
+    pub(super) fn is_final(&self) -> bool {
+        self.is_proof() || self.stop == Stop::Cancelled
+    }
+
     /// The tree if it is a proof; why the search ended, if not.
     pub(super) fn proof(self) -> Result<Vec<Node>, Stop> {
         match self.is_proof() {

@@ -16,6 +16,7 @@ use super::parts::Parts;
 use super::search::{search, Branch, Ends, Outcome};
 use crate::search::{Budget, Control, Stop};
 use orthocert_kernel::problem::Problem;
+use std::cell::Cell;
 
 /// Boxes after which tolerances are taken apart: certificates in ranges are shorter. Of platforms that turn, and of
 /// others.
@@ -54,11 +55,8 @@ pub(super) fn in_ranges(
         return Err(Box::new(derived));
     }
     let most = MOST_IN_RANGES[usize::from(problem.orientation.is_empty())];
-    let found = Prover::new(problem).map(|prover| {
-        let ways =
-            Ways { prover: &prover, points: &[], most_apart: 0, budget: budget.at_most(most) };
-        ways.boxes(true, control)
-    });
+    let found = Prover::new(problem)
+        .map(|prover| Ways::new(&prover, (&[], 0), budget.at_most(most)).boxes(true, control));
     // Second derivatives are for what ranges do not show.
     let found = found.ok().filter(Outcome::is_proof);
     found.ok_or_else(|| Box::new(with_second_derivatives(derived)))
@@ -66,14 +64,13 @@ pub(super) fn in_ranges(
 
 /// The ways to a tree of a problem.
 pub(super) struct Ways<'a, 'p> {
-    /// The problem in doubles.
-    pub prover: &'a Prover<'p>,
-    /// Where it is nearest to failing.
-    pub points: &'a [Vec<f64>],
-    /// Boxes with directions apart, if its tests hold so next to these points.
-    pub most_apart: usize,
-    /// The budget of each way.
-    pub budget: Budget,
+    prover: &'a Prover<'p>,
+    points: &'a [Vec<f64>],
+    most_apart: usize,
+    /// Of each way.
+    budget: Budget,
+    /// So many boxes with directions apart were tried, and were no proof.
+    tried_apart: Cell<usize>,
 }
 
 /// How tolerances are taken in parts.
@@ -86,7 +83,17 @@ pub(super) struct InParts<'a> {
     pub apart: bool,
 }
 
-impl Ways<'_, '_> {
+impl<'a, 'p> Ways<'a, 'p> {
+    /// The ways to a tree of a problem that is nearest to failing at these points; where its tests hold there with directions
+    /// apart, with so many boxes of these.
+    pub fn new(
+        prover: &'a Prover<'p>,
+        (points, most_apart): (&'a [Vec<f64>], usize),
+        budget: Budget,
+    ) -> Self {
+        Ways { prover, points, most_apart, budget, tried_apart: Cell::default() }
+    }
+
     /// A proof by any of them, or what the boxes of the workspace leave open; these are given up where they are hopeless if
     /// `hopeless` says so.
     pub fn tree(&self, hopeless: bool, control: &mut Control<'_>) -> Outcome {
@@ -101,8 +108,12 @@ impl Ways<'_, '_> {
 
     /// Boxes of the workspace.
     pub fn boxes(&self, hopeless: bool, control: &mut Control<'_>) -> Outcome {
-        let ends = Ends { hopeless, ..Ends::default() };
-        search(self.prover, &Branch::whole(self.prover), ends, self.budget, control)
+        self.at_most(usize::MAX, hopeless, control)
+    }
+
+    fn at_most(&self, most: usize, hopeless: bool, control: &mut Control<'_>) -> Outcome {
+        let (whole, ends) = (Branch::whole(self.prover), Ends { hopeless, ..Ends::default() });
+        search(self.prover, &whole, ends, self.budget.at_most(most), control)
             .expect("the root is a box of the tree")
     }
 
@@ -113,8 +124,7 @@ impl Ways<'_, '_> {
         if !is_meant || self.budget.max_boxes <= MOST_IN_ONE {
             return None;
         }
-        let found =
-            Ways { budget: self.budget.at_most(MOST_IN_ONE), ..*self }.boxes(false, control);
+        let found = self.at_most(MOST_IN_ONE, false, control);
         if found.is_proof() {
             return Some(found);
         }
@@ -125,35 +135,40 @@ impl Ways<'_, '_> {
         Some(Outcome { boxes: found.boxes + apart.boxes, ..apart })
     }
 
-    /// At most so many boxes of the workspace, with directions apart where one is hopeless without.
+    /// A proof of at most so many boxes of the workspace, with directions apart where one is hopeless without, or what was
+    /// cancelled; it is not looked for twice.
     pub fn apart(&self, most: usize, control: &mut Control<'_>) -> Option<Outcome> {
-        self.prover.problem.derived.as_ref()?;
+        self.prover.problem.derived.as_ref().filter(|_| most > self.tried_apart.get())?;
         let ends = Ends { hopeless: true, ..Ends::default() };
         let whole = Branch::whole(self.prover);
-        search(&Apart(self.prover), &whole, ends, self.budget.at_most(most), control)
+        let found = search(&Apart(self.prover), &whole, ends, self.budget.at_most(most), control)?;
+        self.tried_apart.set(most);
+        found.is_final().then_some(found)
     }
 
     /// A proof where boxes of the workspace are hopeless.
     pub fn apart_or_in_parts(&self, control: &mut Control<'_>) -> Option<Outcome> {
-        let apart = self.apart(FEW_APART, control).filter(Outcome::is_proof);
-        apart.or_else(|| {
+        let found = self.apart(FEW_APART, control).or_else(|| {
             let all = InParts { about: None, times: 1, apart: true };
-            self.in_parts(&all, control).filter(Outcome::is_proof)
-        })
+            self.in_parts(&all, usize::MAX, control)
+        });
+        found.filter(Outcome::is_proof)
     }
 
-    /// With tolerances in parts, where no box of the workspace is small enough.
+    /// A proof with tolerances in parts, where no box of the workspace is small enough, or what was cancelled; of at most so
+    /// many boxes.
     pub fn in_parts(
         &self,
         InParts { about, times, apart }: &InParts<'_>,
+        most: usize,
         control: &mut Control<'_>,
     ) -> Option<Outcome> {
         let parts = Parts::new(self.prover, *apart)?;
         let ends = Ends { hopeless: true, enough: Some(MOST_ABREAST) };
-        let budget = self.budget.at_most(times * parts.most());
+        let budget = self.budget.at_most(most.min(times * parts.most()));
         if about.is_some_and(|point| !parts.hold_next_to(point, budget, control)) {
             return None;
         }
-        search(&parts, &Branch::whole(&parts), ends, budget, control)
+        search(&parts, &Branch::whole(&parts), ends, budget, control).filter(Outcome::is_final)
     }
 }
