@@ -11,8 +11,8 @@ use crate::test::Row;
 use std::collections::BTreeSet;
 
 impl<E: Enclosure> Checker<'_, E> {
-    /// The work of all steps, beside that of formulas over cells: at vertices the operations on
-    /// matrices, with all their sign vertices; at control points the formulas there; with tolerances apart all
+    /// The work of all steps, beside that of formulas over cells: at vertices, or control points, the operations on
+    /// matrices, with all their sign vertices; at control points the formulas there, too; with tolerances apart all
     /// formulas with their derivatives once a node, twice where directions are of one scale in some of its steps and not in
     /// others, and for each step those of one machine; of second order with all second derivatives, and with the derivatives of
     /// the one machine; and how often, at each vertex or control point, a tolerance, or a pair of these, changes a number.
@@ -34,9 +34,15 @@ impl<E: Enclosure> Checker<'_, E> {
         let is_curved = |ends: &str| ends.chars().any(is_of_second_order);
         let tests = self.problem.obligations.iter().map(|obligation| &obligation.test);
         let at_vertices: Vec<usize> = tests.map(|test| at_vertices(test, &self.rows, m)).collect();
+        let at_points = |obligation: &usize, points: usize| {
+            at_vertices.get(*obligation).map_or(0, |work| work.saturating_mul(points))
+        };
         let both = |a: [usize; 2], b: [usize; 2]| [0, 1].map(|k| a[k].saturating_add(b[k]));
         let of_part = |obligation: &usize, evidence: &Evidence| match evidence {
-            Evidence::Control(_) => [own.get(*obligation).map_or(0, |(_, work)| *work), 0],
+            Evidence::Control(_) => {
+                let (points, work) = own.get(*obligation).copied().unwrap_or_default();
+                [work.saturating_add(at_points(obligation, points)), 0]
+            }
             Evidence::Tolerances(inner, ends, _) => {
                 let is_control = matches!(**inner, Evidence::Control(_));
                 let controls = [&own, &apart].map(|all| all.get(*obligation));
@@ -60,13 +66,17 @@ impl<E: Enclosure> Checker<'_, E> {
                     None => (entries, 0),
                     Some(second) => (all, of(Some(&second.changes), steps * steps)),
                 };
-                let entries =
-                    controls().map(|(_, work)| *work).fold(entries, usize::saturating_add);
-                let together = self.together_of(test, inner, ends).saturating_mul((m + 2).pow(2));
+                let entries = controls()
+                    .map(|(_, work)| *work)
+                    .fold(entries, usize::saturating_add)
+                    .saturating_add(at_points(obligation, points));
+                // A matrix of m + 1 rows at most is made, and eliminated with all its sign vertices.
+                let each = (m + 2).pow(2) + ((m + 1).pow(3) << m) / 6;
+                let together = self.together_of(test, inner, ends).saturating_mul(each);
                 let together = together.saturating_mul(points);
                 [entries, first.saturating_add(pairs).saturating_add(together)]
             }
-            _ => [at_vertices.get(*obligation).copied().unwrap_or(0), 0],
+            _ => [at_points(obligation, 1 << m), 0],
         };
         let of_step = |Step(obligation, evidence): &Step| {
             let parts = evidence.parts().into_iter();
@@ -109,7 +119,7 @@ impl<E: Enclosure> Checker<'_, E> {
     }
 }
 
-/// The operations of a test on its matrices and on all their sign vertices, at all vertices of `m` coordinates.
+/// The operations of a test on its matrices and on all their sign vertices, at one vertex of `m` coordinates.
 fn at_vertices(test: &Test, rows: &[Row<Formula>], m: usize) -> usize {
     let n = test.rows(rows).len();
     let (k, matrices) = match test {
@@ -119,5 +129,5 @@ fn at_vertices(test: &Test, rows: &[Row<Formula>], m: usize) -> usize {
         _ => (m, 1),
     };
     let signs = (1usize << k) / 2;
-    (matrices * (n * k * k + signs * k * k * k / 6)) << m
+    matrices * (n * k * k + signs * k * k * k / 6)
 }
