@@ -356,6 +356,20 @@ fn too_few_boxes_leave_the_gap_open() {
     folder.run(&["check", "d.paving"]).exits(0);
 }
 
+/// Cells that are their own images are not cut, and are split along the planes' normals too: with joint coordinates that grow
+/// by as much as x does, x was never halved there, and a gap of 0.07 was out of reach.
+#[test]
+fn cells_on_planes_of_symmetry_are_split_along_all_axes() {
+    let folder = folder();
+    let design = "[mechanism]\nkind = \"orthoglide\"\nleg_length = 410\nbase = -540\noffset = 30\n[workspace]\n\
+                  min = [-200, -200, -200]\nmax = [200, 200, 200]\n[requirements]\njoint_range = { min = 0, max = 320 }\n";
+    folder.write("d.toml", design);
+    let gap =
+        ["pave", "d.toml", "--volume-gap", "0.05", "--max-boxes", "20000", "--format", "json"];
+    let answer: Value = serde_json::from_str(&folder.run(&gap).exits(0).stdout).unwrap();
+    assert!(answer["gap"].as_f64().unwrap() < 0.05, "{answer}");
+}
+
 #[test]
 fn components_are_of_whole_boxes() {
     let folder = folder();

@@ -290,7 +290,7 @@ impl<'a> Decider<'a> {
         let known = || margins.iter().filter_map(|(o, margin)| Some((*o, (*margin)?)));
         let worst = known().map(|(_, own)| own).min_by(|a, b| a.room().total_cmp(&b.room()));
         if let Some(worst) = worst.filter(|worst| worst.centre < 0.0) {
-            return self.split(cell, Vec::new(), self.weights(&worst, margins)).with(margins);
+            return self.split(cell, Vec::new(), self.weights(cell, &worst, margins)).with(margins);
         }
         let (mut steps, mut left) = (Vec::new(), 0);
         for &(o, margin) in margins {
@@ -330,7 +330,7 @@ impl<'a> Decider<'a> {
         }
         let along = match worst {
             Some(worst) if !self.open(!left).any(|o| is_general(self.test(o))) => {
-                self.weights(&worst, margins)
+                self.weights(cell, &worst, margins)
             }
             _ => {
                 let left: Vec<usize> = self.open(!left).collect();
@@ -341,10 +341,10 @@ impl<'a> Decider<'a> {
     }
 
     /// What is gained by halving each coordinate of a cell: in what is left between two planes where cells are
-    /// cut, the first order has no part. Where more than one obligation ends in the cell, it is not cut.
-    fn weights(&self, worst: &Margin, margins: &[Own]) -> [f64; 3] {
+    /// cut, the first order has no part. Where more than one obligation ends in the cell, or it is its own image, it is not cut.
+    fn weights(&self, cell: &Cell, worst: &Margin, margins: &[Own]) -> [f64; 3] {
         let ends = |(_, own): &&Own| own.is_some_and(|margin| margin.room().abs() < 1.0);
-        let is_cut = self.cuts() && margins.iter().filter(ends).count() == 1;
+        let is_cut = self.cuts() && self.may_cut(cell) && margins.iter().filter(ends).count() == 1;
         match is_cut && worst.beyond.iter().any(|x| *x > 0.0) {
             true => worst.beyond,
             false => worst.weights(),
