@@ -15,10 +15,12 @@ use crate::search::Budget;
 use num_rational::BigRational;
 use num_traits::Signed;
 use orthocert_checker::certificate::{Certificate, Proof};
-use orthocert_kernel::claim as kernel;
+use orthocert_kernel::claim::{self as kernel, Requirement};
 use orthocert_kernel::machine::{Joint, Leg};
+use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
 use serde::Serialize;
+use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -58,6 +60,12 @@ struct Row {
     unit: Option<&'static str>,
     /// "least" or "greatest".
     end: &'static str,
+    /// What it is for.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    given: BTreeMap<String, Vec<String>>,
+    /// Whether the design says so; a unit of each, if not.
+    #[serde(skip)]
+    is_asked: bool,
     /// Below the extreme, or equal.
     #[serde(skip_serializing_if = "Option::is_none")]
     min: Option<Exact>,
@@ -139,7 +147,8 @@ fn rows(
     };
     let mut rows = exact_rows(claim);
     for (number, extreme) in extremes.iter().enumerate() {
-        let mut row = Row::new(extreme.quantity(), extreme.unit(angular), extreme.is_greatest());
+        let mut row = Row::of(claim, extreme, angular);
+        let budget = budget.shared(all - number);
         let task = format!("{} of {all}, {} {}", number + 1, row.end, row.quantity);
         let found = possible().and_then(|()| {
             bar.run(&task, all - number, |control| {
@@ -157,6 +166,7 @@ fn rows(
     }
     for (number, &leg) in turning.iter().enumerate() {
         let number = extremes.len() + number;
+        let budget = budget.shared(all - number);
         let task = format!("{} of {all}, rho_{}", number + 1, leg + 1);
         let found = possible().and_then(|()| {
             bar.run(&task, all - number, |control| {
@@ -211,6 +221,8 @@ impl Row {
             quantity,
             unit,
             end: if greatest { "greatest" } else { "least" },
+            given: BTreeMap::new(),
+            is_asked: true,
             min: None,
             max: None,
             point: None,
@@ -219,6 +231,19 @@ impl Row {
             not_enclosed: None,
             certificates: Vec::new(),
         }
+    }
+
+    /// Of this extreme of a claim.
+    fn of(claim: &kernel::MachineClaim, extreme: &Extreme, angular: bool) -> Self {
+        let own = &extreme.bounded().requirement;
+        let texts = |(name, all): (&String, &Vec<Expression>)| {
+            (name.clone(), all.iter().map(Expression::to_string).collect())
+        };
+        let given = own.given.iter().map(texts).collect();
+        let same = |one: &Requirement| own.quantity == one.quantity && own.given == one.given;
+        let is_asked = own.given.is_empty() || claim.require.iter().any(same);
+        let row = Row::new(extreme.quantity(), extreme.unit(angular), extreme.is_greatest());
+        Row { given, is_asked, ..row }
     }
 
     /// Between a refuted bound and a certified one.
@@ -378,6 +403,22 @@ fn text(
              as a bound, at the place named, the other is certified."
         );
         wrap(&mut out, &text, 2);
+    }
+    // The joint speed of a unit of tool speed says so in its name.
+    let of_units = |row: &&Row| !row.is_asked && row.unit.is_some() && row.not_enclosed.is_none();
+    let mut units: Vec<&str> = Vec::new();
+    for row in rows.iter().filter(of_units) {
+        for name in row.given.keys() {
+            let text = match name.as_str() {
+                "joint" => "stiffness is of joints with a stiffness of 1 each",
+                "tool" => "joint force is that of a tool force of 1",
+                _ => continue,
+            };
+            units.extend(Some(text).filter(|text| !units.contains(text)));
+        }
+    }
+    if !units.is_empty() {
+        wrap(&mut out, &format!("Of what the design does not name: {}.", listed(&units)), 2);
     }
     if rows.iter().any(|row| row.wide) {
         wrap(&mut out, "* wider than asked for: no narrower proof was found", 2);

@@ -277,9 +277,8 @@ pub fn not_taken_up(part: &Path, begins: &[u8], what: &str) -> Result<(), Failur
         return Ok(());
     }
     let mut start = Vec::new();
-    let read = output::open_own(part, OpenOptions::new().read(true))?
-        .take(begins.len() as u64)
-        .read_to_end(&mut start);
+    // Where another run is writing it, that is all there is to say.
+    let read = output::open_locked(part, false)?.take(begins.len() as u64).read_to_end(&mut start);
     read.map_err(|error| Failure::from(OutputError::Io(part.to_owned(), error)))?;
     let part = part.shown();
     if !begins.starts_with(&start) {

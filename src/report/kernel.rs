@@ -59,6 +59,8 @@ const AMPLE: f64 = 0.75;
 
 /// The name of what is under the roots of a leg's closure.
 pub const RADICAND: &str = "least radicand";
+/// What a singularity has 0 of.
+pub const DETERMINANT: &str = "least |det M|";
 
 /// Pairs of bodies along one leg of which one is beside it, counted from one, in the order of their obligations.
 fn along_one_leg(bodies: &[Body]) -> impl Iterator<Item = [usize; 2]> + '_ {
@@ -104,7 +106,7 @@ impl<'a> Facts<'a> {
         let Some(bounded) = self.bounded(quality) else {
             let name = match quality {
                 Quality::Reach => RADICAND,
-                Quality::Determinant => "least |det M|",
+                Quality::Determinant => DETERMINANT,
                 Quality::Obligation(_) => "least sigma_min(M)",
             };
             return (name.to_owned(), None, ">", vec![Expression::integer(0)]);
@@ -142,7 +144,7 @@ impl<'a> Facts<'a> {
             None => Some(match quality {
                 // A square of a length.
                 Quality::Reach => found.margin * self.sampler.unit().powi(2),
-                Quality::Determinant => found.margin.max(0.0) / unit.powi(lengths),
+                Quality::Determinant => found.margin / unit.powi(lengths),
                 Quality::Obligation(_) => found.margin / unit,
             }),
         }

@@ -1,6 +1,6 @@
 //! Reports for people: the verdict first, then the table, within 80 columns.
 
-use super::kernel::RADICAND;
+use super::kernel::{DETERMINANT, RADICAND};
 use super::place::{placed, point_text, pose_text, positions, turn_text, FreeParameter};
 use super::{
     machine_of_witness, CertificateFile, Counterexample, EarlierFile, Margin, Outcome,
@@ -254,6 +254,10 @@ fn table(out: &mut String, report: &Report, verbose: bool) {
     }
     if rows.iter().any(|row| row.requirement == RADICAND) {
         out.push_str("  least radicand: 0 where reach ends; |det M|: 0 at a singularity\n");
+    }
+    // Of all that is looked for the determinant alone has no sign.
+    if rows.iter().any(|row| row.requirement == DETERMINANT && row.margin < 0.0) {
+        out.push_str("  |det M|: negative where det M has another sign than at the centre\n");
     }
     if rows.iter().any(|row| row.seems_violated) {
         out.push_str("  ! the value found is beyond its bound\n");

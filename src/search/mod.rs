@@ -27,6 +27,16 @@ impl Budget {
     pub fn at_most(self, boxes: usize) -> Self {
         Budget { max_boxes: self.max_boxes.min(boxes), ..self }
     }
+
+    /// Until the deadline, the time of the first of so many tasks.
+    pub fn shared(self, tasks: usize) -> Self {
+        let now = Instant::now();
+        let share = |end: Instant| {
+            let tasks = u32::try_from(tasks).unwrap_or(u32::MAX).max(1);
+            now + end.saturating_duration_since(now) / tasks
+        };
+        Budget { deadline: self.deadline.map(share), ..self }
+    }
 }
 
 /// How far work is.

@@ -100,6 +100,16 @@ fn bounds_and_paper() {
     let value = object(&folder.run(&arguments).exits(0));
     assert_eq!(value["bounds"][0]["quantity"], "psi");
     assert_eq!(value["bounds"][0]["min"], "1/2");
+    let of = |quantity: &str| {
+        value["bounds"].as_array().unwrap().iter().find(|row| row["quantity"] == quantity).unwrap()
+    };
+    // What the design does not name is one, and said.
+    assert_eq!(of("stiffness")["given"]["joint"][0], "1");
+    assert_eq!(of("joint force")["given"]["tool"][0], "1");
+    folder
+        .run(&arguments[..3])
+        .exits(0)
+        .says(&["stiffness is of joints with a stiffness of 1 each"]);
     let value = object(&folder.run(&["paper", "--format", "json"]).exits(0));
     assert_eq!(value["claims"][0]["id"], "leg-length");
 }

@@ -110,7 +110,7 @@ pub fn enclose(
     let budget = of_one_width(budget, &Problem::new(&probe)?);
     let mut known = Found::worst(&probe, extreme, ROUNDS)?;
     let (mut steps, mut begun) = (Steps::default(), None);
-    let found = narrowest(relative, |width| {
+    let found = narrowest(relative, budget.deadline.is_some(), |width| {
         for _ in 0..ROUNDS {
             let step = width * known.size()?;
             let outer = end(extreme, known.value, &step, 2).ok_or(NotEnclosed::Undecided)?;
@@ -138,31 +138,34 @@ pub fn enclose(
 }
 
 /// What is found at the width `relative`, or else at the narrowest of its doubles up to [`loosest`], by halves of
-/// their exponents: a width is as easy as all narrower ones. Once something is found, it stays so whatever then
-/// goes wrong.
+/// their exponents: a width is as easy as all narrower ones. Where time is short the loosest is first, and one between.
+/// Once something is found, it stays so whatever then goes wrong.
 pub(super) fn narrowest<T>(
     relative: &BigRational,
+    is_short: bool,
     mut at: impl FnMut(&BigRational) -> Result<Option<T>, NotEnclosed>,
 ) -> Result<Option<T>, NotEnclosed> {
     let mut wider = vec![relative.clone()];
     while let Some(last) = wider.last().filter(|last| **last < loosest()) {
         wider.push((last + last).min(loosest()));
     }
-    let (mut fails, mut best) = (0, at(relative)?);
-    if best.is_some() || wider.len() == 1 {
-        return Ok(best);
-    }
-    let mut holds = wider.len() - 1;
-    best = at(&wider[holds])?;
-    while best.is_some() && holds - fails > 1 {
-        let middle = (fails + holds) / 2;
-        match at(&wider[middle]) {
-            Ok(None) => fails = middle,
-            Ok(found) => (best, holds) = (found, middle),
-            Err(_) => break,
+    let last = wider.len() - 1;
+    let first = if is_short { [last, last / 2, 0] } else { [0, last, last] };
+    // Found at `holds`, and nothing at and below `fails`.
+    let (mut fails, mut holds) = (None, wider.len());
+    let mut best = None;
+    let mut next = first.into_iter();
+    loop {
+        let between = |fails: Option<usize>| fails.filter(|fails| holds - fails > 1);
+        let asked = next.find(|k| *k < holds && fails.is_none_or(|fails| *k > fails));
+        let middle = between(fails).filter(|_| best.is_some()).map(|fails| (fails + holds) / 2);
+        let Some(k) = asked.or(middle) else { return Ok(best) };
+        match at(&wider[k]) {
+            Ok(Some(found)) => (best, holds) = (Some(found), k),
+            Ok(None) => fails = Some(k),
+            Err(error) => return best.map(Some).ok_or(error),
         }
     }
-    Ok(best)
 }
 
 /// The worst that sampling finds of an extreme, and a bound near it, at a relative distance of `relative` or more

@@ -49,7 +49,7 @@ pub fn enclose(
     let (lo, hi) = lo.zip(hi).ok_or(NotEnclosed::Undecided)?;
     let third = BigRational::new(1.into(), 3.into());
     let mut steps = Steps::default();
-    let found = narrowest(relative, |width| {
+    let found = narrowest(relative, budget.deadline.is_some(), |width| {
         let step = width * (&hi - &lo);
         let (inward, outward) = (&step * &third, &step * (&third + &third));
         let certified = [rounded(&(&lo - &outward), &step), rounded(&(&hi + &outward), &step)];

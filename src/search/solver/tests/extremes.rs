@@ -4,7 +4,9 @@ use super::kinds::three_rpr;
 use super::*;
 use crate::design::Design;
 use crate::questions::tolerance::{Kind, Scheme};
-use crate::search::solver::enclose::{enclose, is_singular, Enclosed};
+use crate::search::solver::enclose::{
+    enclose, is_singular, loosest, narrowest, Enclosed, NotEnclosed,
+};
 use crate::search::solver::extremes::Extreme;
 use crate::search::solver::value::Bounded;
 use num_rational::BigRational;
@@ -292,4 +294,35 @@ fn descents_find_edges_and_insides() {
             assert!(found.margin <= margin + 1e-9, "{quality:?}: {} {margin}", found.margin);
         }
     }
+}
+
+/// The widths that are tried, in those asked for, where those from `holds` on are found and time is up
+/// after `most`; and what is found.
+fn widths(holds: i64, is_short: bool, most: usize) -> (Vec<i64>, Result<Option<i64>, ()>) {
+    let asked = loosest() / BigRational::from_integer(800.into());
+    let mut tried = Vec::new();
+    let found = narrowest(&asked, is_short, |width| {
+        if tried.len() == most {
+            return Err(NotEnclosed::Undecided);
+        }
+        let times = (width / &asked).to_integer().to_i64().expect("a word");
+        tried.push(times);
+        Ok((times >= holds).then_some(times))
+    });
+    (tried, found.map_err(|_| ()))
+}
+
+#[test]
+fn what_was_found_before_time_is_up_stays() {
+    let all = usize::MAX;
+    assert_eq!(widths(1, false, all), (vec![1], Ok(Some(1))));
+    assert_eq!(widths(100, false, all), (vec![1, 800, 32, 128, 64], Ok(Some(128))));
+    assert_eq!(widths(801, false, all), (vec![1, 800], Ok(None)));
+    assert_eq!(widths(1, true, all), (vec![800, 32, 1], Ok(Some(1))));
+    assert_eq!(widths(8, true, all), (vec![800, 32, 1, 4, 8], Ok(Some(8))));
+    assert_eq!(widths(100, true, all), (vec![800, 32, 128, 64], Ok(Some(128))));
+    assert_eq!(widths(801, true, all), (vec![800], Ok(None)));
+    assert_eq!(widths(1, true, 2), (vec![800, 32], Ok(Some(32))));
+    assert_eq!(widths(1, true, 0), (vec![], Err(())));
+    assert_eq!(widths(1, false, 0), (vec![], Err(())));
 }
