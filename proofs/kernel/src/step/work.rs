@@ -66,15 +66,15 @@ impl<E: Enclosure> Checker<'_, E> {
                     None => (entries, 0),
                     Some(second) => (all, of(Some(&second.changes), steps * steps)),
                 };
-                let entries = controls()
-                    .map(|(_, work)| *work)
-                    .fold(entries, usize::saturating_add)
-                    .saturating_add(at_points(obligation, points));
+                let entries =
+                    controls().map(|(_, work)| *work).fold(entries, usize::saturating_add);
                 // A matrix of m + 1 rows at most is made, and eliminated with all its sign vertices.
                 let each = (m + 2).pow(2) + ((m + 1).pow(3) << m) / 6;
                 let together = self.together_of(test, inner, ends).saturating_mul(each);
                 let together = together.saturating_mul(points);
-                [entries, first.saturating_add(pairs).saturating_add(together)]
+                let matrices = at_points(obligation, points);
+                let all = [first, pairs, together, matrices];
+                [entries, all.into_iter().fold(0, usize::saturating_add)]
             }
             _ => [at_points(obligation, 1 << m), 0],
         };
