@@ -144,7 +144,9 @@ impl<'a> Facts<'a> {
             None => Some(match quality {
                 // A square of a length.
                 Quality::Reach => found.margin * self.sampler.unit().powi(2),
-                Quality::Determinant => found.margin / unit.powi(lengths),
+                // Of another sign than at the centre it is 0 on the way there, and not here.
+                Quality::Determinant if found.margin < -NOISE => found.margin / unit.powi(lengths),
+                Quality::Determinant => found.margin.max(0.0) / unit.powi(lengths),
                 Quality::Obligation(_) => found.margin / unit,
             }),
         }

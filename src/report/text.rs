@@ -255,8 +255,8 @@ fn table(out: &mut String, report: &Report, verbose: bool) {
     if rows.iter().any(|row| row.requirement == RADICAND) {
         out.push_str("  least radicand: 0 where reach ends; |det M|: 0 at a singularity\n");
     }
-    // Of all that is looked for the determinant alone has no sign.
-    if rows.iter().any(|row| row.requirement == DETERMINANT && row.margin < 0.0) {
+    let is_negative = |row: &Row| row.worst_found.is_some_and(|value| value < 0.0);
+    if rows.iter().any(|row| row.requirement == DETERMINANT && is_negative(row)) {
         out.push_str("  |det M|: negative where det M has another sign than at the centre\n");
     }
     if rows.iter().any(|row| row.seems_violated) {

@@ -68,6 +68,16 @@ fn every_design_has_its_verdict() {
     }
 }
 
+/// Where it has another sign than at the centre, a determinant is not 0 there, but on the way.
+#[test]
+fn a_determinant_is_shown_with_its_sign() {
+    let folder = Folder::with(&["star-singular.toml", "delta-out-of-reach.toml"]);
+    let sign = "|det M|: negative where det M has another sign than at the centre";
+    folder.run(&["verify", "star-singular.toml"]).exits(1).says(&["> 0      -0.130", sign]);
+    let run = folder.run(&["verify", "delta-out-of-reach.toml"]).exits(1);
+    assert!(!run.stdout.contains(sign), "{}", run.stdout);
+}
+
 /// Lengths of metres with tolerances of a tenth of a millimetre are beyond machine words: the proof, of 8 million changes by
 /// tolerances, takes a third of a second to check, and 12 times as many are too many.
 #[test]
