@@ -406,17 +406,14 @@ fn text(
     }
     // The joint speed of a unit of tool speed says so in its name.
     let of_units = |row: &&Row| !row.is_asked && row.unit.is_some() && row.not_enclosed.is_none();
-    let mut units: Vec<&str> = Vec::new();
-    for row in rows.iter().filter(of_units) {
-        for name in row.given.keys() {
-            let text = match name.as_str() {
-                "joint" => "stiffness is of joints with a stiffness of 1 each",
-                "tool" => "joint force is that of a tool force of 1",
-                _ => continue,
-            };
-            units.extend(Some(text).filter(|text| !units.contains(text)));
-        }
-    }
+    let said = |(name, text): (&str, &'static str)| {
+        rows.iter().filter(of_units).any(|row| row.given.contains_key(name)).then_some(text)
+    };
+    let units = [
+        ("joint", "stiffness is of joints with a stiffness of 1 each"),
+        ("tool", "joint force is that of a tool force of 1"),
+    ];
+    let units: Vec<&str> = units.into_iter().filter_map(said).collect();
     if !units.is_empty() {
         wrap(&mut out, &format!("Of what the design does not name: {}.", listed(&units)), 2);
     }

@@ -150,15 +150,15 @@ pub(super) fn narrowest<T>(
         wider.push((last + last).min(loosest()));
     }
     let last = wider.len() - 1;
-    let first = if is_short { [last, last / 2, 0] } else { [0, last, last] };
+    let first = if is_short { &[last, last / 2, 0][..] } else { &[0, last] };
     // Found at `holds`, and nothing at and below `fails`.
     let (mut fails, mut holds) = (None, wider.len());
     let mut best = None;
-    let mut next = first.into_iter();
+    let mut next = first.iter().copied();
     loop {
-        let between = |fails: Option<usize>| fails.filter(|fails| holds - fails > 1);
         let asked = next.find(|k| *k < holds && fails.is_none_or(|fails| *k > fails));
-        let middle = between(fails).filter(|_| best.is_some()).map(|fails| (fails + holds) / 2);
+        let between = fails.filter(|fails| best.is_some() && holds - fails > 1);
+        let middle = between.map(|fails| (fails + holds) / 2);
         let Some(k) = asked.or(middle) else { return Ok(best) };
         match at(&wider[k]) {
             Ok(Some(found)) => (best, holds) = (Some(found), k),
