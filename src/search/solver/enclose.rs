@@ -388,11 +388,15 @@ fn certify(
     let holds_there = prover.holds_next_to(&point, false);
     let points = std::slice::from_ref(&point);
     let ways = Ways::new(&prover, (points, FEW_APART), budget);
+    let mut few = None;
     if begun.is_none() && holds_there {
-        if let Some(found) = ways.few(control) {
-            if let Answer::Decided { certificate, .. } = accepted(claim, &prover, found.nodes) {
-                return Ok(Attempt::Certified(certificate, found.boxes));
+        match ways.few(control) {
+            Ok(found) => {
+                if let Answer::Decided { certificate, .. } = accepted(claim, &prover, found.nodes) {
+                    return Ok(Attempt::Certified(certificate, found.boxes));
+                }
             }
+            Err(before) => few = before,
         }
     }
     let mut found = match &*begun {
@@ -401,7 +405,7 @@ fn certify(
             let ends = Ends { hopeless: true, ..Ends::default() };
             resume(&prover, before, ends, budget, control)
         }
-        None => Some(ways.boxes(true, control)),
+        None => Some(ways.boxes_after(few, true, control)),
     };
     let is_hopeless =
         |found: &Option<Outcome>| found.as_ref().is_none_or(|found| found.stop == Stop::Hopeless);

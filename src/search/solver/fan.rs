@@ -53,8 +53,9 @@ impl Over<'_> {
         }
     }
 
-    /// Both bounds of a condition number by themselves.
+    /// Both bounds of a condition number by themselves; none where, to first order, no one `mu` is between those of all machines.
     fn between(&self, test: &Test, c_squared: Formula) -> Option<Evidence> {
+        self.left_of(test).filter(|[left, lost]| left + lost > 0.0)?;
         PARTS.into_iter().find_map(|part| {
             let mu = self.mu(self.centre(c_squared)?, Form::Plain, part)?;
             let places = u32::try_from(BITS - exponent(mu[0])).ok()?;

@@ -117,11 +117,13 @@ impl Over<'_> {
         with.fold(own, f64::max)
     }
 
-    /// The inequalities of the workspace and the orientations at the vertices, or control points.
+    /// The inequalities of the workspace and the orientations at the vertices, or control points; none that is nowhere
+    /// negative there, of which nothing is gained.
     pub fn less(&self) -> Vec<(With, Vec<f64>)> {
         let inside = self.inside().map(|g| (Evidence::Inside as With, g));
         let turned = self.turned().map(|g| (Evidence::Turned as With, g));
-        inside.into_iter().chain(turned).collect()
+        let all = inside.into_iter().chain(turned);
+        all.filter(|(_, g)| g.iter().any(|g| *g < 0.0)).collect()
     }
 
     /// The same, by their values at the centre and half of what they change by

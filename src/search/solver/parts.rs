@@ -277,7 +277,7 @@ impl Boxes for Parts<'_> {
 
 impl Over<'_> {
     /// By how much a test holds for the worst machine, about, less what is lost; and that.
-    fn left_of(&self, test: &Test) -> Option<[f64; 2]> {
+    pub(super) fn left_of(&self, test: &Test) -> Option<[f64; 2]> {
         let own = |there: &Over<'_>| match test {
             Test::Conditioning(c) => {
                 let least = there.left_along(&Test::SigmaMin(*c))?;

@@ -13,7 +13,7 @@
 
 use super::evidence::{Apart, Prover};
 use super::parts::Parts;
-use super::search::{search, Branch, Ends, Outcome};
+use super::search::{resume, search, Branch, Ends, Outcome};
 use crate::search::{Budget, Control, Stop};
 use orthocert_kernel::problem::Problem;
 use std::cell::Cell;
@@ -97,13 +97,36 @@ impl<'a, 'p> Ways<'a, 'p> {
     /// A proof by any of them, or what the boxes of the workspace leave open; these are given up where they are hopeless if
     /// `hopeless` says so.
     pub fn tree(&self, hopeless: bool, control: &mut Control<'_>) -> Outcome {
-        self.few(control).unwrap_or_else(|| {
-            let found = self.boxes(hopeless, control);
+        self.few(control).unwrap_or_else(|before| {
+            let found = self.boxes_after(before, hopeless, control);
             match found.stop {
                 Stop::Hopeless => self.apart_or_in_parts(control).unwrap_or(found),
                 _ => found,
             }
         })
+    }
+
+    /// Boxes of the workspace, from those on which [`Ways::few`] stopped; none where one of these was hopeless.
+    pub fn boxes_after(
+        &self,
+        before: Option<Outcome>,
+        hopeless: bool,
+        control: &mut Control<'_>,
+    ) -> Outcome {
+        let Some(before) = before else { return self.boxes(hopeless, control) };
+        match before.stop {
+            Stop::Boxes | Stop::Exhausted if before.waiting.len() < before.open.len() => {
+                Outcome { stop: Stop::Hopeless, ..before }
+            }
+            Stop::Boxes => {
+                let most = self.budget.max_boxes.saturating_sub(before.boxes);
+                let (ends, budget) =
+                    (Ends { hopeless, ..Ends::default() }, self.budget.at_most(most));
+                let found = resume(self.prover, &before, ends, budget, control);
+                found.expect("it is of the same tree")
+            }
+            _ => before,
+        }
     }
 
     /// Boxes of the workspace.
@@ -118,21 +141,26 @@ impl<'a, 'p> Ways<'a, 'p> {
     }
 
     /// A proof of few boxes of a problem with tolerances; with directions apart if the tests hold so next to the points.
-    pub fn few(&self, control: &mut Control<'_>) -> Option<Outcome> {
+    ///
+    /// # Errors
+    /// What the few boxes without left open.
+    pub fn few(&self, control: &mut Control<'_>) -> Result<Outcome, Option<Outcome>> {
         let problem = self.prover.problem;
         let is_meant = problem.derived.is_some() && problem.orientation.is_empty();
         if !is_meant || self.budget.max_boxes <= MOST_IN_ONE {
-            return None;
+            return Err(None);
         }
         let found = self.at_most(MOST_IN_ONE, false, control);
         if found.is_proof() {
-            return Some(found);
+            return Ok(found);
         }
         if !self.points.iter().all(|point| self.prover.holds_next_to(point, true)) {
-            return None;
+            return Err(Some(found));
         }
-        let apart = self.apart(self.most_apart, control).filter(Outcome::is_proof)?;
-        Some(Outcome { boxes: found.boxes + apart.boxes, ..apart })
+        match self.apart(self.most_apart, control).filter(Outcome::is_proof) {
+            Some(apart) => Ok(Outcome { boxes: found.boxes + apart.boxes, ..apart }),
+            None => Err(Some(found)),
+        }
     }
 
     /// A proof of at most so many boxes of the workspace, with directions apart where one is hopeless without, or what was

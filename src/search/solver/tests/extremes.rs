@@ -326,3 +326,37 @@ fn what_was_found_before_time_is_up_stays() {
     assert_eq!(widths(1, true, 0), (vec![], Err(())));
     assert_eq!(widths(1, false, 0), (vec![], Err(())));
 }
+
+fn of_file(design: &str) -> MachineClaim {
+    let file = format!("{}/tests/designs/{design}.toml", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(&file).expect("a file");
+    Design::parse(&text, design).expect("a design").claim
+}
+
+/// What took few boxes is not begun again, and the tree is the same; where a box was hopeless, none follows.
+#[test]
+fn a_tree_goes_on_from_few_boxes() {
+    let claim = of_file("delta-conditioning");
+    let cancel = AtomicBool::new(false);
+    let mut control = Control { cancel: &cancel, progress: &mut |_| {} };
+    for (t, is_hopeless) in [(1, false), (4, true)] {
+        let t = BigRational::from_integer(t.into());
+        let claim = Scheme::common(&[Kind::LegLength]).claim(&claim, &t).expect("numbers");
+        let problem = with_derivatives(Problem::new(&claim).expect("a claim"));
+        let prover = Prover::new(&problem).expect("numbers");
+        let budget = Budget { max_boxes: 4000, deadline: None };
+        let mut begin = |most| {
+            let (whole, ends) = (Branch::whole(&prover), Ends::default());
+            search(&prover, &whole, ends, budget.at_most(most), &mut control).expect("a tree")
+        };
+        let before = begin(if is_hopeless { 1000 } else { 100 });
+        assert_eq!(before.stop, Stop::Boxes, "{}", before.boxes);
+        let whole = if is_hopeless { before.clone() } else { begin(4000) };
+        let ways = Ways::new(&prover, (&[], 0), budget);
+        let found = ways.boxes_after(Some(before), true, &mut control);
+        assert_eq!(found.stop == Stop::Hopeless, is_hopeless);
+        assert_eq!(found.is_proof(), !is_hopeless);
+        assert_eq!(found.boxes, whole.boxes);
+        assert!(found.nodes == whole.nodes);
+    }
+}
