@@ -89,7 +89,7 @@ struct Row {
     /// `refuted/certified - 1`, rounded up.
     gap: Option<String>,
     gap_reached: bool,
-    /// Whether the row's time was up before the search for it ended.
+    /// Whether the row's time, or that of one of its proofs, was up before the search for it ended.
     out_of_time: bool,
     /// The machine and the point of the refutation.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -122,43 +122,70 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let enough = BOXES.0.max(BOXES.1.saturating_mul(nodes));
     let budget = effort.budget_or(enough as u64, started)?;
     let legs = if arguments.by_leg { legs_of(&claim.mechanism) } else { 0 };
-    let mut left = schemes(&kinds).len() + usize::from(mixed(&kinds)) + kinds.len() * legs;
     let mut bar = effort.bar();
-    let mut bracket = |scheme: &Scheme| {
-        if interrupt::is_cancelled() {
-            return Err(Failure::Interrupted);
-        }
+    // One of the rows that share the time that is left.
+    let mut bracket = |scheme: &Scheme, known: Bracket, left: usize| {
         let own = each.and_then(|each| Instant::now().checked_add(each));
-        let deadline = [budget.deadline, own].into_iter().flatten().min();
+        let deadline = [budget.shared(left).deadline, own].into_iter().flatten().min();
         let budget = Budget { deadline, ..budget };
-        left -= 1;
-        let found = bar
-            .run(&words(scheme), left + 1, |control| widest(claim, scheme, width, budget, control));
-        let out_of_time = interrupt::is_cancelled()
-            || deadline.is_some_and(|deadline| Instant::now() >= deadline);
-        found.map(|found| (found, out_of_time)).map_err(|error| explain(error, &design))
+        let found = bar.run(&words(scheme), left, |control| {
+            widest(claim, scheme, width, known, budget, control)
+        });
+        found.map_err(|error| explain(error, &design))
     };
     let mut rows = Vec::new();
     let mut fill = || {
-        let mut weights = Vec::new();
-        for (scheme, measure) in schemes(&kinds) {
-            let found = bracket(&scheme)?;
-            if let ([(kind, _)], Some((t, _))) = (&scheme.weights[..], &found.0.certified) {
-                weights.push((*kind, t.clone()));
+        let schemes = schemes(&kinds);
+        let mut after = usize::from(mixed(&kinds)) + kinds.len() * legs;
+        let mut all = Vec::new();
+        for (at, (scheme, measure)) in schemes.iter().enumerate() {
+            if interrupt::is_cancelled() {
+                break;
             }
-            rows.push(row(&scheme, measure, found, width, arguments)?);
+            let found = bracket(scheme, Bracket::default(), schemes.len() - at + after)?;
+            rows.push(row(scheme, *measure, &found, width, arguments)?);
+            all.push(found);
         }
+        // What time the others left is for those whose time was up, first for those of which least is known: half of what is left
+        // each, for what is not proved in as much as before wants more.
+        let is_short =
+            |(found, out_of_time): &(Bracket, bool)| *out_of_time && !reaches(found, width);
+        let mut improved = each.is_none();
+        while std::mem::take(&mut improved) {
+            let mut short: Vec<usize> = (0..all.len()).filter(|&at| is_short(&all[at])).collect();
+            short.sort_by_key(|&at| all[at].0.certified.is_some());
+            for at in short {
+                if interrupt::is_cancelled() {
+                    break;
+                }
+                let (scheme, measure) = &schemes[at];
+                let found = bracket(scheme, all[at].0.clone(), 2 + after)?;
+                improved |= found.0.certified.as_ref().map(|(t, _)| t)
+                    != all[at].0.certified.as_ref().map(|(t, _)| t);
+                rows[at] = row(scheme, *measure, &found, width, arguments)?;
+                all[at] = found;
+            }
+        }
+        let certified = kinds.iter().zip(&all).filter_map(|(kind, (found, _))| {
+            let (t, _) = found.certified.as_ref()?;
+            Some((*kind, t.clone()))
+        });
+        let weights: Vec<_> = certified.collect();
         if mixed(&kinds) && weights.len() == kinds.len() {
+            unless_interrupted()?;
             let scheme = Scheme { weights, leg: None };
-            let found = bracket(&scheme)?;
-            rows.push(row(&scheme, Measure::Share, found, width, arguments)?);
+            let found = bracket(&scheme, Bracket::default(), after)?;
+            rows.push(row(&scheme, Measure::Share, &found, width, arguments)?);
         }
+        after -= usize::from(mixed(&kinds));
         for kind in kinds.iter().filter(|_| arguments.by_leg) {
             let first = rows.len();
-            for leg in 0..legs_of(&claim.mechanism) {
+            for leg in 0..legs {
+                unless_interrupted()?;
                 let scheme = Scheme { leg: Some(leg), ..Scheme::common(&[*kind]) };
-                let found = bracket(&scheme)?;
-                rows.push(row(&scheme, measure(kind.is_direction()), found, width, arguments)?);
+                let found = bracket(&scheme, Bracket::default(), after)?;
+                after -= 1;
+                rows.push(row(&scheme, measure(kind.is_direction()), &found, width, arguments)?);
             }
             // The leg that allows least first.
             let least = |row: &Row| {
@@ -166,7 +193,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
             };
             rows[first..].sort_by_key(least);
         }
-        Ok(())
+        unless_interrupted()
     };
     interrupt::grant();
     let filled = fill();
@@ -190,6 +217,18 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     }
     let complete = rows.iter().all(|row| row.gap_reached);
     interrupt::unless_cancelled(if complete { Status::Done } else { Status::Undecided })
+}
+
+/// Whether both ends are as near to each other as asked for.
+fn reaches(found: &Bracket, width: f64) -> bool {
+    found.gap().and_then(|gap| gap.to_f64()).is_some_and(|gap| gap <= width)
+}
+
+fn unless_interrupted() -> Result<(), Failure> {
+    if interrupt::is_cancelled() {
+        return Err(Failure::Interrupted);
+    }
+    Ok(())
 }
 
 fn too_large() -> Failure {
@@ -317,7 +356,7 @@ fn nodes_or_status(
 fn row(
     scheme: &Scheme,
     measure: Measure,
-    (found, out_of_time): (Bracket, bool),
+    (found, out_of_time): &(Bracket, bool),
     width: f64,
     arguments: &Arguments,
 ) -> Result<Row, Failure> {
@@ -362,8 +401,8 @@ fn row(
         certified: end(&found.certified),
         refuted: end(&found.refuted),
         gap: reached.as_ref().map(gap_text),
-        gap_reached: reached.and_then(|gap| gap.to_f64()).is_some_and(|gap| gap <= width),
-        out_of_time,
+        gap_reached: reaches(found, width),
+        out_of_time: *out_of_time,
         counterexample,
         certificates,
     })

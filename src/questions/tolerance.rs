@@ -38,6 +38,9 @@ const AIM: f64 = 0.99;
 /// steps from there on.
 const LAST: f64 = 0.1;
 const SHORT: f64 = 1.25;
+/// Of the time that is left, each proof may take one part of so many: less wide tolerances take less, and one that is
+/// certified is better than none.
+const TO_EACH_PROOF: usize = 2;
 /// The first step's factor where the tolerances just short of the refuted one are not proved.
 const UNPROVED: f64 = 1.3;
 
@@ -251,7 +254,8 @@ pub(crate) fn around(quantity: &Quantity, t: &BigRational) -> Option<Quantity> {
 
 /// Encloses the widest `t` for which the claim widened by `scheme` holds, to `gap`. Where the proofs that the
 /// search finds do not come so near to the refuted end, both are found to a part of `gap`. Where there is a
-/// deadline, a third of the time is for the refuted end.
+/// deadline, a third of the time is for the refuted end. Ends that are `known` are gone on from. Also says whether more time may
+/// bring them nearer to each other.
 ///
 /// # Errors
 /// If it was cancelled.
@@ -259,9 +263,10 @@ pub fn widest(
     claim: &MachineClaim,
     scheme: &Scheme,
     gap: f64,
+    known: Bracket,
     budget: Budget,
     control: &mut Control<'_>,
-) -> Result<Bracket, NoAnswer> {
+) -> Result<(Bracket, bool), NoAnswer> {
     let scale = scheme.scale(claim);
     let weight = scheme.weights.iter().filter_map(|(_, weight)| weight.to_f64());
     let scale = scale / weight.fold(f64::MIN_POSITIVE, f64::max);
@@ -284,7 +289,16 @@ pub fn widest(
             None => Ok(None),
         })
     };
-    let refuted = match control.part([0.0, 0.4], |control| refute(&walk, control))? {
+    let begun = match known.refuted {
+        None => control.part([0.0, 0.4], |control| refute(&walk, control))?,
+        Some(known) => {
+            let t = known.0.to_f64().unwrap_or(walk.limits.1);
+            let nearer =
+                Walk { start: t / SHORT, limits: (walk.limits.0, t), factor: SHORT, ..walk };
+            control.part([0.0, 0.4], |control| refute(&nearer, control))?.or(Some(known))
+        }
+    };
+    let refuted = match begun {
         // Beyond some tolerance there is no machine, a direction being zero: less far, then.
         None => {
             let short = Walk { start: LAST * scale, factor: SHORT, most: SHORT, ..walk };
@@ -307,46 +321,60 @@ pub fn widest(
         Proof::Witness(witness) => Some(&witness.point[..]),
         _ => None,
     });
-    let certified = control
+    let walk = match &known.certified {
+        Some((least, _)) => walk.beyond(least.to_f64().unwrap_or(walk.limits.0)),
+        None => walk,
+    };
+    let (certified, out_of_time) = control
         .part([0.6, 1.0], |control| certified(claim, scheme, (&walk, point), budget, control))?;
-    Ok(Bracket { certified, refuted })
+    let is_over = budget.deadline.is_some_and(|deadline| Instant::now() >= deadline);
+    let certified = certified.or(known.certified);
+    Ok((Bracket { certified, refuted }, out_of_time || is_over || control.is_cancelled()))
+}
+
+impl Walk {
+    /// The same beyond what is certified.
+    fn beyond(&self, least: f64) -> Self {
+        let start = match self.enough {
+            Some(_) => (least * self.start).sqrt(),
+            None => least * UNPROVED,
+        };
+        Walk { start, limits: (least, self.limits.1), ..*self }
+    }
 }
 
 /// The widest `t` found for which the claim widened by `scheme` is certified; `point` is where it is nearest to failing.
-/// Of platforms that turn one proof that is not found may take all the time: what few boxes prove is first, then.
+/// Of platforms that turn one proof that is not found may take all the time: what few boxes prove is first, then. And whether
+/// the time of a proof was up.
 fn certified(
     claim: &MachineClaim,
     scheme: &Scheme,
     (walk, point): (&Walk, Option<&[Expression]>),
     budget: Budget,
     control: &mut Control<'_>,
-) -> Result<Option<Certified>, NoAnswer> {
-    let ran_out = Cell::new(false);
-    let prove = |walk: &Walk, budget, control: &mut Control<'_>| {
+) -> Result<(Option<Certified>, bool), NoAnswer> {
+    let (ran_out, out_of_time) = (Cell::new(false), Cell::new(false));
+    let prove = |walk: &Walk, budget: Budget, control: &mut Control<'_>| {
         frontier(walk, control, |t, control| {
             let Some(claim) = scheme.claim(claim, t) else { return Ok(None) };
+            let budget = budget.shared(TO_EACH_PROOF);
             let found = solver::proof_about(&claim, point, budget, control);
             ran_out.set(ran_out.get() || matches!(found, Err(Stop::Boxes | Stop::Time)));
+            out_of_time.set(out_of_time.get() || matches!(found, Err(Stop::Time)));
             unless_cancelled(control, found.ok())
         })
     };
     let first = decimal(walk.start, walk.gap).and_then(|t| scheme.claim(claim, &t));
     let few = first.and_then(|claim| Some(of_one_width(budget, &Problem::new(&claim).ok()?)));
     let few = few.filter(|few| claim.orientation.is_some() && few.max_boxes < budget.max_boxes);
-    let Some(few) = few else { return prove(walk, budget, control) };
+    let Some(few) = few else { return Ok((prove(walk, budget, control)?, out_of_time.get())) };
     let quick = control.part([0.0, 0.5], |control| prove(walk, few, control))?;
     let least = quick.as_ref().and_then(|(t, _)| t.to_f64());
     let is_enough = least.is_some_and(|t| walk.enough.is_some_and(|enough| t >= enough));
     if is_enough || !ran_out.get() {
-        return Ok(quick);
+        return Ok((quick, out_of_time.get()));
     }
-    let beyond = |least: f64| {
-        let start = match walk.enough {
-            Some(_) => (least * walk.start).sqrt(),
-            None => least * UNPROVED,
-        };
-        Walk { start, limits: (least, walk.limits.1), ..*walk }
-    };
-    let walk = least.map_or(*walk, beyond);
-    Ok(control.part([0.5, 1.0], |control| prove(&walk, budget, control))?.or(quick))
+    let walk = least.map_or(*walk, |least| walk.beyond(least));
+    let found = control.part([0.5, 1.0], |control| prove(&walk, budget, control))?;
+    Ok((found.or(quick), out_of_time.get()))
 }

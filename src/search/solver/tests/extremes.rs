@@ -3,7 +3,8 @@
 use super::kinds::three_rpr;
 use super::*;
 use crate::design::Design;
-use crate::questions::tolerance::{Kind, Scheme};
+use crate::questions::frontier::Bracket;
+use crate::questions::tolerance::{widest, Kind, Scheme};
 use crate::search::solver::enclose::{
     enclose, is_singular, loosest, narrowest, Enclosed, NotEnclosed,
 };
@@ -359,4 +360,31 @@ fn a_tree_goes_on_from_few_boxes() {
         assert_eq!(found.boxes, whole.boxes);
         assert!(found.nodes == whole.nodes);
     }
+}
+
+/// What is known of the widest tolerance is kept, and the certified end goes on from there; with no time left, that is said.
+#[test]
+fn a_known_tolerance_is_improved() {
+    let claim = of_file("delta-joint-speed");
+    let scheme = Scheme::common(&[Kind::LegLength]);
+    let cancel = AtomicBool::new(false);
+    let mut control = Control { cancel: &cancel, progress: &mut |_| {} };
+    let mut found = |gap, known, deadline| {
+        let budget = Budget { max_boxes: 2_000, deadline };
+        widest(&claim, &scheme, gap, known, budget, &mut control).expect("an answer")
+    };
+    let (none, is_short) = found(0.01, Bracket::default(), Some(std::time::Instant::now()));
+    assert!(is_short && none.certified.is_none());
+    let coarse = found(0.5, Bracket::default(), None).0;
+    let (fine, is_short) = found(0.01, Bracket::default(), None);
+    assert!(!is_short);
+    let first = Bracket { certified: coarse.certified, refuted: fine.refuted };
+    let (second, is_short) = found(0.01, first.clone(), None);
+    assert!(!is_short);
+    assert!(second.gap().is_some_and(|gap| gap <= BigRational::new(1.into(), 100.into())));
+    let value = |end: &Option<(BigRational, _)>| end.as_ref().expect("an end").0.clone();
+    assert_eq!(value(&second.refuted), value(&first.refuted));
+    assert!(value(&second.certified) > value(&first.certified));
+    let (third, is_short) = found(0.01, second.clone(), Some(std::time::Instant::now()));
+    assert!(is_short && value(&third.certified) == value(&second.certified));
 }
