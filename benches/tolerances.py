@@ -19,7 +19,7 @@ from pathlib import Path
 
 ASKED = {
     "bounds": ["--relative", "1e-4", "--timeout", "120"],
-    "tolerance": ["--gap", "0.01", "--timeout", "100"],
+    "tolerance": ["--gap", "0.01", "--timeout", "60"],
 }
 
 
