@@ -53,9 +53,7 @@ pub fn run(
     let workers = batch::workers(jobs);
     let cancel = interrupt::cancelled();
     let outcomes = run_jobs(Arc::clone(&pairs), workers, cancel, audit, |_, _| {});
-    if interrupt::is_cancelled() {
-        return Err(Failure::Interrupted);
-    }
+    interrupt::unless_cancelled(())?;
     let rows: Option<Vec<Row>> = outcomes
         .into_iter()
         .map(|outcome| match outcome {

@@ -3,7 +3,7 @@
 //! The search looks at [`cancelled`] between batches of boxes. What does not look, such as the exact
 //! check of a large proof, is ended with the process, but never while a file is being written.
 
-use super::{print, progress, Failure, Status};
+use super::{print, progress, Failure};
 use crate::files::output;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -46,11 +46,11 @@ pub fn grant() {
     GRACE.store(5000, Ordering::Relaxed);
 }
 
-/// The status of an answer: a signal that came before it was complete counts, whatever was found.
-pub fn unless_cancelled(status: Status) -> Result<Status, Failure> {
+/// An answer, or its status: a signal that came before it was complete counts, whatever was found.
+pub fn unless_cancelled<T>(answer: T) -> Result<T, Failure> {
     match is_cancelled() {
         true => Err(Failure::Interrupted),
-        false => Ok(status),
+        false => Ok(answer),
     }
 }
 

@@ -20,7 +20,6 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::PathBuf;
-use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 /// Boxes after which a tolerance counts as not certified: what closes at all mostly closes in a few
@@ -160,19 +159,16 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
                 }
                 let (scheme, measure) = &schemes[at];
                 let found = bracket(scheme, all[at].0.clone(), 2 + after)?;
-                improved |= found.0.certified.as_ref().map(|(t, _)| t)
-                    != all[at].0.certified.as_ref().map(|(t, _)| t);
+                improved |= certified(&found) != certified(&all[at]);
                 rows[at] = row(scheme, *measure, &found, width, arguments)?;
                 all[at] = found;
             }
         }
-        let certified = kinds.iter().zip(&all).filter_map(|(kind, (found, _))| {
-            let (t, _) = found.certified.as_ref()?;
-            Some((*kind, t.clone()))
-        });
-        let weights: Vec<_> = certified.collect();
+        let weights = kinds.iter().zip(&all);
+        let weights = weights.filter_map(|(kind, found)| Some((*kind, certified(found)?.clone())));
+        let weights: Vec<_> = weights.collect();
         if mixed(&kinds) && weights.len() == kinds.len() {
-            unless_interrupted()?;
+            interrupt::unless_cancelled(())?;
             let scheme = Scheme { weights, leg: None };
             let found = bracket(&scheme, Bracket::default(), after)?;
             rows.push(row(&scheme, Measure::Share, &found, width, arguments)?);
@@ -181,7 +177,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         for kind in kinds.iter().filter(|_| arguments.by_leg) {
             let first = rows.len();
             for leg in 0..legs {
-                unless_interrupted()?;
+                interrupt::unless_cancelled(())?;
                 let scheme = Scheme { leg: Some(leg), ..Scheme::common(&[*kind]) };
                 let found = bracket(&scheme, Bracket::default(), after)?;
                 after -= 1;
@@ -193,7 +189,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
             };
             rows[first..].sort_by_key(least);
         }
-        unless_interrupted()
+        interrupt::unless_cancelled(())
     };
     interrupt::grant();
     let filled = fill();
@@ -219,16 +215,14 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     interrupt::unless_cancelled(if complete { Status::Done } else { Status::Undecided })
 }
 
+/// The widest tolerance of a row that is certified.
+fn certified((found, _): &(Bracket, bool)) -> Option<&BigRational> {
+    found.certified.as_ref().map(|(t, _)| t)
+}
+
 /// Whether both ends are as near to each other as asked for.
 fn reaches(found: &Bracket, width: f64) -> bool {
     found.gap().and_then(|gap| gap.to_f64()).is_some_and(|gap| gap <= width)
-}
-
-fn unless_interrupted() -> Result<(), Failure> {
-    if interrupt::is_cancelled() {
-        return Err(Failure::Interrupted);
-    }
-    Ok(())
 }
 
 fn too_large() -> Failure {
@@ -312,9 +306,7 @@ fn nodes_or_status(
     let counterexample = refuted.as_deref().and_then(counterexample);
     if refuted.is_none() {
         let found = effort.run(|control| proof(nominal, budget, control));
-        if interrupt::cancelled().load(Ordering::Relaxed) {
-            return Err(Failure::Interrupted);
-        }
+        interrupt::unless_cancelled(())?;
         if let Ok(Proof::Tree(tree)) = found.map(|certificate| certificate.proof) {
             return Ok(Ok(tree.nodes.len()));
         }
