@@ -129,7 +129,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         None if bracket.endless => Some(ENDLESS),
         Some(_) if bracket.inside.is_some() || bracket.too_large.is_some() => None,
         Some(_) if turns => Some(ONE_CENTRE),
-        _ => Some(size::missed(budget)),
+        _ => Some(size::missed(bracket.out_of_time)),
     };
     let answer = Answer {
         title: design.title.clone(),

@@ -9,7 +9,6 @@ use crate::questions::frontier::{Bracket, Certified, NoAnswer};
 use crate::questions::size::{is_side, Family, Scope, Unknown};
 use crate::report::text::{duration, labelled, verbatim, wrap};
 use crate::report::{counterexample, exactly, CertificateFile, Counterexample};
-use crate::search::Budget;
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 use orthocert_checker::certificate::Certificate;
@@ -104,23 +103,26 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let budget = effort.budget_or(BOXES, started)?;
     interrupt::grant();
     let mut bar = effort.bar();
-    let family =
-        bar.run("place of the cube", 5, |control| Family::new(claim, &side, width, control));
+    let family = bar.run("place of the cube", 5, |control| {
+        Family::new(claim, &side, width, budget.shared(3), control)
+    });
     let family = family.map_err(|error| explain(error, &design))?;
     let found = bar
-        .run("this place", 2, |control| family.smallest(width, budget, control))
+        .run("this place", 2, |control| family.smallest(width, budget.shared(2), control))
         .map_err(|error| explain(error, &design))?;
     let excluded = bar
         .run("every place", 1, |control| family.excluded(width, budget, control))
         .map_err(|error| explain(error, &design))?;
     drop(bar);
+    let out_of_time = found.out_of_time || excluded.out_of_time;
+    let excluded = excluded.found;
     let nothing = found.certified.is_none() && found.refuted.is_none() && excluded.is_none();
     if nothing && interrupt::is_cancelled() {
         return Err(Failure::Interrupted);
     }
     let answer = answer(&family, (found, excluded), side, width, arguments)?;
     let why = !answer.gap_reached && !answer.interrupted;
-    let missed = why.then(|| missed(budget));
+    let missed = why.then(|| missed(out_of_time));
     let length = common_length(claim);
     let answer = Answer { length, length_unit: design.unit, missed, ..answer };
     match effort.format {
@@ -188,8 +190,8 @@ pub fn file(
 }
 
 /// Why an answer is wider than the gap that was asked for, if neither was interrupted nor endless.
-pub fn missed(budget: Budget) -> &'static str {
-    match budget.deadline.is_some_and(|deadline| Instant::now() >= deadline) {
+pub fn missed(out_of_time: bool) -> &'static str {
+    match out_of_time {
         true => "the time was up",
         false => "no nearer proof was found within the boxes of a search; --max-boxes sets them",
     }
@@ -218,15 +220,13 @@ fn answer(
         Some(folder) => stored(folder, &found, excluded.as_ref())?,
         None => Vec::new(),
     };
-    let reaches =
-        |found: &Bracket| found.gap().and_then(|gap| gap.to_f64()).is_some_and(|gap| gap <= width);
     let end = |end: &Option<Certified>| end.as_ref().map(|(size, _)| Exact::Rational(size.clone()));
     let excluded_for = family.scope().map(scope);
     let for_all = Bracket { refuted: excluded, ..found.clone() };
     let excluded = end(&for_all.refuted);
     let limit = found.refuted.as_ref().and_then(|(_, certificate)| counterexample(certificate));
     let mut refuted_for = "this placement";
-    if let (true, Some(all)) = (reaches(&for_all), excluded_for) {
+    if let (true, Some(all)) = (for_all.reaches(width), excluded_for) {
         (found, refuted_for) = (for_all, all);
     }
     let certified = end(&found.certified);
@@ -244,7 +244,7 @@ fn answer(
         refuted: end(&found.refuted),
         refuted_for,
         gap: found.gap().as_ref().map(gap_text),
-        gap_reached: reaches(&found),
+        gap_reached: found.reaches(width),
         missed: None,
         excluded,
         excluded_for,

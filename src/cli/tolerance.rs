@@ -13,7 +13,6 @@ use crate::report::{counterexample, CertificateFile, Counterexample};
 use crate::search::solver::{proof, refutation};
 use crate::search::Budget;
 use num_rational::BigRational;
-use num_traits::ToPrimitive;
 use orthocert_checker::certificate::{Proof, Verdict};
 use orthocert_kernel::claim::{MachineClaim, Mechanism};
 use serde::Serialize;
@@ -147,18 +146,17 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         }
         // What time the others left is for those whose time was up, first for those of which least is known: half of what is left
         // each, for what is not proved in as much as before wants more.
-        let is_short =
-            |(found, out_of_time): &(Bracket, bool)| *out_of_time && !reaches(found, width);
+        let is_short = |found: &Bracket| found.out_of_time && !found.reaches(width);
         let mut improved = each.is_none();
         while std::mem::take(&mut improved) {
             let mut short: Vec<usize> = (0..all.len()).filter(|&at| is_short(&all[at])).collect();
-            short.sort_by_key(|&at| all[at].0.certified.is_some());
+            short.sort_by_key(|&at| all[at].certified.is_some());
             for at in short {
                 if interrupt::is_cancelled() {
                     break;
                 }
                 let (scheme, measure) = &schemes[at];
-                let found = bracket(scheme, all[at].0.clone(), 2 + after)?;
+                let found = bracket(scheme, all[at].clone(), 2 + after)?;
                 improved |= certified(&found) != certified(&all[at]);
                 rows[at] = row(scheme, *measure, &found, width, arguments)?;
                 all[at] = found;
@@ -216,13 +214,8 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
 }
 
 /// The widest tolerance of a row that is certified.
-fn certified((found, _): &(Bracket, bool)) -> Option<&BigRational> {
+fn certified(found: &Bracket) -> Option<&BigRational> {
     found.certified.as_ref().map(|(t, _)| t)
-}
-
-/// Whether both ends are as near to each other as asked for.
-fn reaches(found: &Bracket, width: f64) -> bool {
-    found.gap().and_then(|gap| gap.to_f64()).is_some_and(|gap| gap <= width)
 }
 
 fn too_large() -> Failure {
@@ -348,7 +341,7 @@ fn nodes_or_status(
 fn row(
     scheme: &Scheme,
     measure: Measure,
-    (found, out_of_time): &(Bracket, bool),
+    found: &Bracket,
     width: f64,
     arguments: &Arguments,
 ) -> Result<Row, Failure> {
@@ -393,8 +386,8 @@ fn row(
         certified: end(&found.certified),
         refuted: end(&found.refuted),
         gap: reached.as_ref().map(gap_text),
-        gap_reached: reaches(found, width),
-        out_of_time: *out_of_time,
+        gap_reached: found.reaches(width),
+        out_of_time: found.out_of_time,
         counterexample,
         certificates,
     })

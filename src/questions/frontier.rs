@@ -2,14 +2,15 @@
 //!
 //! A family of claims depends on one positive number, such that what is proved for one value holds
 //! for all values on one side of it. [`frontier`] looks for the last value at which a test succeeds:
-//! steps of a growing factor until the test changes, then halves by the geometric mean. Every value
+//! steps of a growing factor until the test changes, then halves by the geometric mean. [`approach`] comes
+//! near to a value at which it is expected from afar, so that whenever it ends there is an answer. Every value
 //! tried is a decimal, which is taken exactly. The tests are [`proof`] and [`refutation`], which
 //! give certificates that the exact checker has accepted. Of claims that
 //! are not so ordered, [`limit`](crate::questions::limit) looks for a value of each verdict.
 
 use crate::exact::Exact;
 use crate::search::solver;
-use crate::search::{Budget, Control, Steps};
+use crate::search::{is_over, Budget, Control, Steps};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 use orthocert_checker::certificate::Certificate;
@@ -21,6 +22,10 @@ use std::time::Instant;
 pub const LARGEST_FACTOR: f64 = 10.0;
 /// Values tried about one that is expected, relative to it.
 const SPREAD: f64 = 100.0;
+/// Where an approach begins, relative to the value that it comes near to.
+const FAR: f64 = 0.1;
+/// A distance is near enough to one that is too near if it is at most this many times as far.
+const NEXT: f64 = 1.2;
 
 /// A value, and the certificate of the claim for it.
 pub type Certified = (BigRational, Box<Certificate>);
@@ -32,6 +37,8 @@ pub struct Bracket {
     pub certified: Option<Certified>,
     /// The claim is refuted for this value.
     pub refuted: Option<Certified>,
+    /// Whether with more time the ends may have been nearer.
+    pub out_of_time: bool,
 }
 
 impl Bracket {
@@ -39,6 +46,11 @@ impl Bracket {
     pub fn gap(&self) -> Option<BigRational> {
         let ((a, _), (b, _)) = self.certified.as_ref().zip(self.refuted.as_ref())?;
         Some(a.max(b) / a.min(b) - BigRational::from_integer(1.into()))
+    }
+
+    /// Whether both ends are as near to each other as this.
+    pub fn reaches(&self, gap: f64) -> bool {
+        self.gap().and_then(|own| own.to_f64()).is_some_and(|own| own <= gap)
     }
 }
 
@@ -123,7 +135,7 @@ impl Walk {
     }
 
     fn is_over(&self) -> bool {
-        self.deadline.is_some_and(|deadline| Instant::now() >= deadline)
+        is_over(self.deadline)
     }
 }
 
@@ -183,23 +195,98 @@ pub fn frontier<T>(
     Ok(best.map(|(_, value, found)| (value, found)))
 }
 
+/// A value that is come near to, from where a test succeeds.
+#[derive(Clone, Copy, Debug)]
+pub struct Approach {
+    /// The value.
+    pub to: f64,
+    /// Which side of it succeeds.
+    pub succeeds: Succeeds,
+    /// The relative distance that is near enough.
+    pub near: f64,
+}
+
+impl Approach {
+    /// The value at a relative distance.
+    fn at(&self, distance: f64) -> Option<BigRational> {
+        let value = match self.succeeds {
+            Succeeds::Below => self.to / (1.0 + distance),
+            Succeeds::Above => self.to * (1.0 + distance),
+        };
+        decimal(value, distance)
+    }
+}
+
+/// What an approach has found.
+#[derive(Clone, Debug)]
+pub struct Approached<T> {
+    /// The nearest value at which the test succeeded, and what it gave.
+    pub found: Option<(BigRational, T)>,
+    /// Whether with more time it may have been nearer.
+    pub out_of_time: bool,
+}
+
+/// The nearest value found at which `test` succeeds: at a distance of a tenth, a hundredth, a square of it
+/// and so on, and past the first that fails at distances between. Where a tenth is too near, it
+/// begins farther away. A test has half of the time that is left: what is far costs little, and what fails
+/// costs most. Cancelled, it has what was found before.
+///
+/// # Errors
+/// Those of `test`.
+pub fn approach<T>(
+    approach: &Approach,
+    budget: Budget,
+    control: &mut Control<'_>,
+    mut test: impl FnMut(&BigRational, Budget, &mut Control<'_>) -> Result<Option<T>, NoAnswer>,
+) -> Result<Approached<T>, NoAnswer> {
+    let mut steps = Steps::default();
+    let (mut best, mut failed, mut out_of_time) = (None, None, false);
+    let mut distance = approach.near.max(FAR);
+    while let Some(value) = approach.at(distance) {
+        let own = budget.shared(2);
+        let found = match steps.next(control, 3, |control| test(&value, own, control)) {
+            Err(NoAnswer::Cancelled) => break,
+            found => found?,
+        };
+        match found {
+            Some(found) => best = Some((distance, (value, found))),
+            None => {
+                failed = Some(distance);
+                out_of_time |= own.is_over();
+            }
+        }
+        distance = match (&best, failed) {
+            (Some((far, _)), None) if *far > approach.near => {
+                (far * far.min(FAR)).max(approach.near)
+            }
+            (Some((far, _)), Some(near)) if far / near > NEXT => (far * near).sqrt(),
+            (None, Some(near)) if near < SPREAD => near * 10.0f64.sqrt(),
+            _ => break,
+        };
+        if budget.is_over() {
+            out_of_time = true;
+            break;
+        }
+    }
+    Ok(Approached { found: best.map(|(_, found)| found), out_of_time })
+}
+
 /// Where both ends are looked for.
 pub struct About {
     /// The value at which the verdict is expected to change.
     pub expected: f64,
     /// Whether it is for smaller or for greater values that the claim holds.
     pub holds: Succeeds,
-    /// Either end is first tried by this share of the gap to its own side of the value expected.
+    /// Either end is to be by this share of the gap to its own side of the value expected; below a half.
     pub share: f64,
-    /// Whether a refuted end that is there is near enough: not where the value expected is found from few samples.
+    /// Whether the value expected is one about which both ends are; not where it is found from few samples.
     pub is_sure: bool,
     /// The relative distance of the ends that is wanted.
     pub gap: f64,
-    /// Of all the work of the caller, where the one end begins, and the other, and where that ends.
-    pub parts: [f64; 3],
 }
 
-/// A value for which the claim is certified, and one for which it is refuted, about the value expected.
+/// A value for which the claim is certified, and one for which it is refuted, about the value expected. Where
+/// that is not sure, the certified end comes near to the refuted one.
 ///
 /// # Errors
 /// If it was cancelled.
@@ -209,38 +296,35 @@ pub fn bracket(
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Result<Bracket, NoAnswer> {
-    let &About { expected, holds, share, is_sure, gap, parts: [first, second, last] } = about;
-    let walk = |succeeds, is_sure: bool| {
-        let start = match succeeds {
-            Succeeds::Below => expected * (1.0 - share * gap),
-            Succeeds::Above => expected * (1.0 + share * gap),
-        };
-        Walk {
-            start,
-            succeeds,
-            factor: 1.0 + gap,
-            most: LARGEST_FACTOR,
-            enough: is_sure.then_some(start),
-            limits: (expected / SPREAD, expected * SPREAD),
-            gap,
-            deadline: budget.deadline,
-        }
+    let &About { expected, holds, share, is_sure, gap } = about;
+    let (start, fails) = match holds {
+        Succeeds::Below => (expected * (1.0 + share * gap), Succeeds::Above),
+        Succeeds::Above => (expected / (1.0 + share * gap), Succeeds::Below),
     };
-    let certified = control.part([first, second], |control| {
-        frontier(&walk(holds, true), control, |x, control| {
-            claim(x).map_or(Ok(None), |claim| proof(&claim, budget, control))
-        })
-    })?;
-    let fails = match holds {
-        Succeeds::Below => Succeeds::Above,
-        Succeeds::Above => Succeeds::Below,
+    let walk = Walk {
+        start,
+        succeeds: fails,
+        factor: 1.0 + gap,
+        most: LARGEST_FACTOR,
+        enough: is_sure.then_some(start),
+        limits: (expected / SPREAD, expected * SPREAD),
+        gap: share * gap,
+        deadline: budget.deadline,
     };
-    let refuted = control.part([second, last], |control| {
-        frontier(&walk(fails, is_sure), control, |x, control| {
+    let refuted = control.part([0.0, 0.1], |control| {
+        frontier(&walk, control, |x, control| {
             claim(x).map_or(Ok(None), |claim| refutation(&claim, control))
         })
     })?;
-    Ok(Bracket { certified, refuted })
+    let end = refuted.as_ref().and_then(|(x, _)| x.to_f64()).filter(|_| !is_sure);
+    let near = end.map_or(share, |_| 2.0 * share) * gap;
+    let to = Approach { to: end.unwrap_or(expected), succeeds: holds, near };
+    let Approached { found: certified, out_of_time } = control.part([0.1, 1.0], |control| {
+        approach(&to, budget, control, |x, budget, control| {
+            claim(x).map_or(Ok(None), |claim| proof(&claim, budget, control))
+        })
+    })?;
+    Ok(Bracket { certified, refuted, out_of_time })
 }
 
 /// How often a factor is to be halved until it is one of `1 + gap`.
@@ -362,6 +446,68 @@ mod tests {
             let forty_two = BigRational::from_integer(42.into());
             assert_eq!(found, tried.into_iter().filter(|x| *x <= forty_two).max());
         }
+    }
+
+    const ENDLESS: Budget = Budget { max_boxes: usize::MAX, deadline: None };
+
+    fn approached(
+        to: &Approach,
+        budget: Budget,
+        mut succeeds: impl FnMut(f64) -> Result<bool, NoAnswer>,
+    ) -> Option<f64> {
+        let cancel = AtomicBool::new(false);
+        let control = &mut Control { cancel: &cancel, progress: &mut |_| {} };
+        let found = approach(to, budget, control, |x, _, _| {
+            let x = x.to_f64().unwrap();
+            Ok(succeeds((to.to / x).max(x / to.to) - 1.0)?.then_some(x))
+        });
+        let Approached { found, out_of_time } = found.unwrap();
+        assert_eq!(out_of_time, budget.is_over());
+        found.map(|(_, x)| (to.to / x).max(x / to.to) - 1.0)
+    }
+
+    #[test]
+    fn the_nearest_distance_that_works_is_come_near_to_from_afar() {
+        for succeeds in [Succeeds::Below, Succeeds::Above] {
+            let to = Approach { to: 200.0, succeeds, near: 3e-7 };
+            for least in [2e-7, 3.1e-7, 7e-6, 0.004, 0.09, 0.11, 0.7, 30.0] {
+                let mut tries = 0;
+                let found = approached(&to, ENDLESS, |distance| {
+                    tries += 1;
+                    Ok(distance >= least)
+                });
+                let found = found.unwrap();
+                let most = f64::max(1.01 * to.near, 1.21 * least);
+                assert!((least..=most).contains(&found), "{least}: {found}");
+                assert!(tries <= 11, "{least}: {tries}");
+            }
+            assert_eq!(approached(&to, ENDLESS, |_| Ok(false)), None);
+        }
+    }
+
+    #[test]
+    fn an_approach_that_ends_early_has_what_was_found_before() {
+        let to = Approach { to: 200.0, succeeds: Succeeds::Above, near: 3e-7 };
+        for (most, expected) in
+            [None, Some(0.1), Some(0.01), Some(1e-4), Some(3e-7)].iter().enumerate()
+        {
+            let mut tries = 0;
+            let found = approached(&to, ENDLESS, |_| {
+                tries += 1;
+                (tries <= most).then_some(true).ok_or(NoAnswer::Cancelled)
+            });
+            assert!(match (found, expected) {
+                (Some(found), Some(expected)) => (found / expected - 1.0).abs() < 0.01,
+                (found, expected) => found == *expected,
+            });
+        }
+        let now = Budget { deadline: Some(Instant::now()), ..ENDLESS };
+        let mut tries = 0;
+        let found = approached(&to, now, |_| {
+            tries += 1;
+            Ok(true)
+        });
+        assert!(found.is_some_and(|distance| distance > 0.09) && tries == 1);
     }
 
     #[test]

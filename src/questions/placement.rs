@@ -4,7 +4,7 @@ use crate::exact::arithmetic::apply;
 use crate::questions::frontier::NoAnswer;
 use crate::search::solver::number;
 use crate::search::solver::sample::{Quality, Sampler};
-use crate::search::{Control, Progress};
+use crate::search::{Budget, Control, Progress};
 use num_rational::BigRational;
 use orthocert_kernel::claim::{MachineClaim, Workspace};
 use orthocert_kernel::number::{Expression, Operator};
@@ -67,7 +67,8 @@ struct Cubes<'a> {
 /// The best place found for a cube in the region where `claim` holds, whose side is found to the
 /// relative `precision`; `None` where no centre of a grid fulfils the claim.
 ///
-/// Where the platform turns, they are to hold in every orientation of the claim's set.
+/// Where the platform turns, they are to hold in every orientation of the claim's set. At the budget's
+/// deadline, or if it is cancelled, it has the best that was found.
 ///
 /// # Errors
 /// If the claim is not well formed, or its workspace is not a box with a volume, of three
@@ -76,6 +77,7 @@ pub fn best_place(
     claim: &MachineClaim,
     centres: Centres,
     precision: f64,
+    budget: Budget,
     control: &mut Control<'_>,
 ) -> Result<Option<Cube>, NoAnswer> {
     let problem = Problem::new(claim)?;
@@ -89,7 +91,9 @@ pub fn best_place(
     let best = starts.into_iter().enumerate().map(|(number, start)| {
         let found = match cubes.is_endless(&start) {
             true => start,
-            false => cubes.ascend(start, precision.max(finest)),
+            false => cubes.ascend(start, precision.max(finest), &|| {
+                budget.is_over() || control.is_cancelled()
+            }),
         };
         (control.progress)(Progress { boxes: 0, share: (number + 1) as f64 / all });
         found
@@ -211,7 +215,7 @@ impl<'a> Cubes<'a> {
 
     /// A pattern search over the centre: axes, diagonals and pseudo-random directions, for the
     /// greatest side has ridges.
-    fn ascend(&self, start: Cube, precision: f64) -> Cube {
+    fn ascend(&self, start: Cube, precision: f64, is_over: &dyn Fn() -> bool) -> Cube {
         let mut best = start;
         best.side = self.side(&best.centre, best.side, precision);
         let mut step = self.size / GRID[0] as f64;
@@ -219,6 +223,9 @@ impl<'a> Cubes<'a> {
         while step > best.side * precision * 0.1 {
             let mut moved = false;
             for n in 0..self.directions() {
+                if is_over() {
+                    return best;
+                }
                 let along = self.direction(n, &mut state);
                 let centre = from_fn(|k| best.centre[k] + step * along[k]);
                 let better = best.side * (1.0 + precision);

@@ -4,7 +4,7 @@
 
 use crate::search::solver::doubles::{Doubles, Pair};
 use crate::search::solver::{confirmed, Answer, Undecided, Verification, PRECISIONS};
-use crate::search::{Budget, Control, Progress, Stop};
+use crate::search::{is_over, Budget, Control, Progress, Stop};
 use orthocert_kernel::cell::Cell;
 use orthocert_kernel::certificate::{Claim, Corner, Evidence, Node, Step, Tree};
 use orthocert_kernel::claim::PostulateClaim;
@@ -13,7 +13,6 @@ use orthocert_kernel::input::ClaimError;
 use orthocert_kernel::postulate::{parts, Part};
 use std::collections::HashMap;
 use std::sync::atomic::Ordering;
-use std::time::Instant;
 
 /// Fractional bits of the search's boxes.
 const BITS: u32 = PRECISIONS[0];
@@ -60,7 +59,7 @@ impl Growing<'_, '_> {
         let Budget { max_boxes, deadline } = self.budget;
         if self.control.cancel.load(Ordering::Relaxed) {
             Some(Stop::Cancelled)
-        } else if deadline.is_some_and(|deadline| Instant::now() >= deadline) {
+        } else if is_over(deadline) {
             Some(Stop::Time)
         } else {
             (self.nodes.len() >= max_boxes).then_some(Stop::Boxes)

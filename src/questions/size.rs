@@ -11,15 +11,18 @@
 //! the axes: of turned cubes, which may fit a smaller machine, nothing is claimed.
 
 use crate::exact::arithmetic::{apply, at_most};
-use crate::questions::frontier::{bracket, decimal, About, Bracket, Certified, NoAnswer, Succeeds};
+use crate::questions::frontier::{
+    approach, bracket, decimal, About, Approach, Approached, Bracket, NoAnswer, Succeeds,
+};
 use crate::questions::largest_cube::exclude;
 use crate::questions::placement::{best_place, cube_about, is_endless, Centres, Cube};
 use crate::questions::tolerance::parameters;
 use crate::search::solver::value::depends_on_length;
 use crate::search::solver::{approximate, number};
-use crate::search::{Budget, Control, Steps};
+use crate::search::{Budget, Control};
 use num_rational::BigRational;
 use num_traits::{FromPrimitive, Signed, ToPrimitive, Zero};
+use orthocert_checker::certificate::Certificate;
 use orthocert_kernel::claim::{
     Bound, Leg, MachineClaim, Mechanism, Quantity, Requirement, Sign, Turning, Workspace,
 };
@@ -30,9 +33,6 @@ const TRANSMISSION: &str = "transmission";
 const SHARE: f64 = 0.4;
 /// Significance of a placement, relative to the gap.
 const PLACEMENT: f64 = 1e-4;
-/// How far below the size found every axis-aligned placement is excluded first, and what this is divided by
-/// while that succeeds.
-const EXCLUDED: (f64, f64) = (0.1, 10.0);
 
 /// What is looked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,8 +68,8 @@ pub struct Family {
 }
 
 impl Family {
-    /// The family of a claim, with the best placement found of a cube of this side; `gap` says how
-    /// precisely it is looked for.
+    /// The family of a claim, with the best placement of a cube of this side that is found within the budget;
+    /// `gap` says how precisely it is looked for.
     ///
     /// # Errors
     /// If the requirements depend on the unit of length, or no placement is found.
@@ -77,12 +77,13 @@ impl Family {
         claim: &MachineClaim,
         side: &BigRational,
         gap: f64,
+        budget: Budget,
         control: &mut Control<'_>,
     ) -> Result<Self, NoAnswer> {
         let claim = as_box(claim)?;
         scale_free(&claim)?;
         let orthoglide = leg_length(&claim);
-        let place = placed(&claim, orthoglide.is_some(), gap * PLACEMENT, control)?;
+        let place = placed(&claim, orthoglide.is_some(), gap * PLACEMENT, budget, control)?;
         let (unknown, own) = match orthoglide {
             Some(length) => (Unknown::LegLength, length),
             None => (Unknown::Scale, 1.0),
@@ -183,30 +184,13 @@ impl Family {
         gap: f64,
         budget: Budget,
         control: &mut Control<'_>,
-    ) -> Result<Option<Certified>, NoAnswer> {
-        let Some(side) = number(&self.side) else { return Ok(None) };
-        let (mut best, mut below) = (None, EXCLUDED.0);
-        let mut steps = Steps::default();
-        // A size far below is excluded by few boxes, and what fails costs most.
-        loop {
-            let share = f64::max(below, SHARE * gap);
-            let Some(size) = decimal(self.expected * (1.0 - share), gap) else { break };
-            let Some(claim) = self.centres(&size) else { break };
-            let found = steps.next(control, 2, |control| exclude(&claim, &side, budget, control));
-            let found = match found {
-                Err(NoAnswer::Cancelled) => break,
-                found => found?,
-            };
-            match found {
-                Some(certificate) => best = Some((size, certificate)),
-                None => break,
-            }
-            if share > below {
-                break;
-            }
-            below /= EXCLUDED.1;
-        }
-        Ok(best)
+    ) -> Result<Approached<Box<Certificate>>, NoAnswer> {
+        let side = number(&self.side);
+        let to = Approach { to: self.expected, succeeds: Succeeds::Below, near: SHARE * gap };
+        approach(&to, budget, control, |size, budget, control| match (self.centres(size), &side) {
+            (Some(claim), Some(side)) => exclude(&claim, side, budget, control),
+            _ => Ok(None),
+        })
     }
 
     /// Encloses the smallest size whose cube can be certified at the place found, to a relative width
@@ -227,7 +211,6 @@ impl Family {
             // Sampling sees little of many orientations: the size expected may be too small.
             is_sure: self.claim.orientation.is_none(),
             gap,
-            parts: [0.0, 0.5, 1.0],
         };
         bracket(&about, |x| self.claim(x), budget, control)
     }
@@ -253,6 +236,7 @@ fn placed(
     claim: &MachineClaim,
     diagonal: bool,
     precision: f64,
+    budget: Budget,
     control: &mut Control<'_>,
 ) -> Result<Cube, NoAnswer> {
     let refused = |why: &str| NoAnswer::Claim(why.to_owned());
@@ -269,7 +253,7 @@ fn placed(
     let workspace = workspace.ok_or_else(too_large)?;
     let centres = if diagonal { Centres::Diagonal } else { Centres::Anywhere };
     let claim = MachineClaim { workspace, ..claim.clone() };
-    let place = best_place(&claim, centres, precision, control)?;
+    let place = best_place(&claim, centres, precision, budget, control)?;
     let place = place.ok_or_else(|| {
         NoAnswer::unfit(
             "workspace",

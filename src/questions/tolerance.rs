@@ -254,8 +254,7 @@ pub(crate) fn around(quantity: &Quantity, t: &BigRational) -> Option<Quantity> {
 
 /// Encloses the widest `t` for which the claim widened by `scheme` holds, to `gap`. Where the proofs that the
 /// search finds do not come so near to the refuted end, both are found to a part of `gap`. Where there is a
-/// deadline, a third of the time is for the refuted end. Ends that are `known` are gone on from. Also says whether more time may
-/// bring them nearer to each other.
+/// deadline, a third of the time is for the refuted end. Ends that are `known` are gone on from.
 ///
 /// # Errors
 /// If it was cancelled.
@@ -266,7 +265,7 @@ pub fn widest(
     known: Bracket,
     budget: Budget,
     control: &mut Control<'_>,
-) -> Result<(Bracket, bool), NoAnswer> {
+) -> Result<Bracket, NoAnswer> {
     let scale = scheme.scale(claim);
     let weight = scheme.weights.iter().filter_map(|(_, weight)| weight.to_f64());
     let scale = scale / weight.fold(f64::MIN_POSITIVE, f64::max);
@@ -327,9 +326,8 @@ pub fn widest(
     };
     let (certified, out_of_time) = control
         .part([0.6, 1.0], |control| certified(claim, scheme, (&walk, point), budget, control))?;
-    let is_over = budget.deadline.is_some_and(|deadline| Instant::now() >= deadline);
-    let certified = certified.or(known.certified);
-    Ok((Bracket { certified, refuted }, out_of_time || is_over || control.is_cancelled()))
+    let out_of_time = out_of_time || budget.is_over() || control.is_cancelled();
+    Ok(Bracket { certified: certified.or(known.certified), refuted, out_of_time })
 }
 
 impl Walk {

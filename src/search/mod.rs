@@ -37,6 +37,16 @@ impl Budget {
         };
         Budget { deadline: self.deadline.map(share), ..self }
     }
+
+    /// Whether the deadline has passed.
+    pub fn is_over(self) -> bool {
+        is_over(self.deadline)
+    }
+}
+
+/// Whether a moment has passed, if there is one.
+pub fn is_over(deadline: Option<Instant>) -> bool {
+    deadline.is_some_and(|deadline| Instant::now() >= deadline)
 }
 
 /// How far work is.

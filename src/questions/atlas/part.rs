@@ -3,7 +3,7 @@
 use super::decide::{decide, Decision};
 use super::kept::{Kept, KeptError};
 use crate::design::AtlasDesign;
-use crate::search::{Control, Progress};
+use crate::search::{is_over, Control, Progress};
 use orthocert_checker::certificate::MOST_BYTES;
 use orthocert_kernel::atlas::{halves, Part};
 use orthocert_kernel::certificate::AtlasCell;
@@ -139,7 +139,7 @@ pub fn grow(
     let deadline = growing.deadline;
     let done = Mutex::new((Done::default(), &mut *growing.control.progress, &mut growing.kept));
     let lock = || done.lock().unwrap_or_else(PoisonError::into_inner);
-    let is_over = || deadline.is_some_and(|deadline| Instant::now() >= deadline);
+    let is_over = || is_over(deadline);
     let unkept = |error: KeptError| Stopped::Unkept(error.to_string());
     while !level.is_empty() && enough.is_none_or(|enough| level.len() < enough) {
         let mut next = Vec::new();

@@ -12,13 +12,15 @@
 mod exclude;
 
 use crate::exact::arithmetic::at_most;
-use crate::questions::frontier::{bracket, proof, About, NoAnswer, Succeeds};
+use crate::questions::frontier::{
+    approach, bracket, proof, About, Approach, Approached, NoAnswer, Succeeds,
+};
 use crate::questions::placement::{best_place, cube_about, is_endless, Centres, Cube};
 use crate::search::solver::{self, approximate, number};
-use crate::search::{Budget, Control, Steps};
+use crate::search::{Budget, Control};
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{FromPrimitive, Signed, Zero};
+use num_traits::{FromPrimitive, Zero};
 use orthocert_checker::certificate::Certificate;
 use orthocert_kernel::claim::{MachineClaim, Workspace};
 use orthocert_kernel::number::Expression;
@@ -59,15 +61,12 @@ pub struct Bracket {
     pub endless: bool,
     /// What fails in a cube of that side about the centre of the one that fits.
     pub fails: Option<Box<Certificate>>,
+    /// Whether with more time the bounds may have been nearer.
+    pub out_of_time: bool,
 }
 
-/// Shares of the gap that are left between the place found and either bound, tried in turn. The
-/// later ones are for tolerances, and for regions in which the place is not unique.
-const SHARES: [f64; 7] = [0.3, 0.45, 5.0, 50.0, 500.0, 2e4, 1e5];
-/// The greatest share with which both bounds are as near as the gap.
-const ENOUGH: f64 = 0.5;
-/// Shares tried between one that is too small and one that is not: a factor of ten becomes 1.15.
-const NEARER: usize = 4;
+/// Share of the gap that is left between the place found and either bound.
+const SHARE: f64 = 0.3;
 /// Boxes after which a side is given up for a looser one: what closes at all closes in some thousand.
 const BOXES: usize = 50_000;
 
@@ -86,40 +85,48 @@ pub fn largest_cube(
     control: &mut Control<'_>,
 ) -> Result<Bracket, NoAnswer> {
     let place = control.part([0.0, 0.3], |control| {
-        best_place(claim, Centres::Workspace, gap * PLACEMENT, control)
+        best_place(claim, Centres::Workspace, gap * PLACEMENT, budget.shared(3), control)
     })?;
     let Some(place) = place else {
         return Ok(Bracket::default());
     };
     let budget = budget.at_most(BOXES);
+    let endless = approximate_width(claim).is_some_and(|width| is_endless(&place, width));
     if claim.orientation.is_some() {
-        return about_one_centre(claim, &place, gap, budget, control);
+        return match endless {
+            true => Ok(Bracket { endless, ..Bracket::default() }),
+            false => about_one_centre(claim, &place, gap, budget, control),
+        };
     }
-    let inside = nearest(control, [0.3, 0.6], |share, control| {
-        let side = decimal(place.side * (1.0 - share * gap), place.side * gap);
-        match side.filter(BigRational::is_positive).and_then(|side| number(&side)) {
-            Some(side) => certified(claim, &side, &place.centre, gap, budget, control),
-            None => Ok(None),
-        }
+    let near = |succeeds| Approach { to: place.side, succeeds, near: SHARE * gap };
+    let inside = control.part([0.3, 0.6], |control| {
+        let budget = budget.shared(2);
+        approach(&near(Succeeds::Below), budget, control, |side, budget, control| {
+            match number(side) {
+                Some(side) => certified(claim, &side, &place.centre, gap, budget, control),
+                None => Ok(None),
+            }
+        })
     })?;
-    let width = approximate_width(claim);
-    let endless = width.is_some_and(|width| is_endless(&place, width));
-    let too_large = if endless {
-        None
-    } else {
-        nearest(control, [0.6, 1.0], |share, control| {
-            let side = decimal(place.side * (1.0 + share * gap), place.side * gap);
-            let Some(side) = side.and_then(|side| number(&side)) else { return Ok(None) };
+    let too_large = control.part([0.6, 1.0], |control| {
+        if endless {
+            return Ok(Approached { found: None, out_of_time: false });
+        }
+        approach(&near(Succeeds::Above), budget, control, |side, budget, control| {
+            let Some(side) = number(side) else { return Ok(None) };
             let excluded = exclude(claim, &side, budget, control)?;
             Ok(excluded.map(|certificate| TooLarge { side, certificate }))
-        })?
-    };
+        })
+    })?;
+    let out_of_time = inside.out_of_time || too_large.out_of_time;
+    let inside = inside.found.map(|(_, inside)| inside);
+    let too_large = too_large.found.map(|(_, too_large)| too_large);
     let fails = match (&inside, &too_large) {
         (Some(Inside { centre, .. }), Some(TooLarge { side, .. })) => cube_about(centre, side)
             .and_then(|workspace| solver::refutation(&MachineClaim { workspace, ..claim.clone() })),
         _ => None,
     };
-    Ok(Bracket { inside, too_large, endless, fails, refuted_here: None })
+    Ok(Bracket { inside, too_large, endless, fails, out_of_time, refuted_here: None })
 }
 
 /// The greatest side that is certified, and the least that is refuted, about the centre of a place, of a
@@ -131,9 +138,6 @@ fn about_one_centre(
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Result<Bracket, NoAnswer> {
-    if approximate_width(claim).is_some_and(|width| is_endless(place, width)) {
-        return Ok(Bracket { endless: true, ..Bracket::default() });
-    }
     let centre = rounded(place, gap);
     if !contains(claim, &centre) {
         return Ok(Bracket::default());
@@ -145,60 +149,23 @@ fn about_one_centre(
     let about = About {
         expected: place.side,
         holds: Succeeds::Below,
-        share: SHARES[0],
+        share: SHARE,
         // Sampling sees little of many orientations: the side expected may be too great.
         is_sure: false,
         gap,
-        parts: [0.3, 0.8, 1.0],
     };
-    let found = bracket(&about, cube, budget, control)?;
+    let found = control.part([0.3, 1.0], |control| bracket(&about, cube, budget, control))?;
     let inside = found.certified.and_then(|(side, certificate)| {
         Some(Inside { side: number(&side)?, centre: centre.clone(), certificate })
     });
     let fails = found.refuted.as_ref().map(|(_, certificate)| certificate.clone());
+    // About a centre that is told.
     let refuted_here = found
         .refuted
+        .filter(|_| inside.is_some())
         .and_then(|(side, certificate)| Some(TooLarge { side: number(&side)?, certificate }));
-    Ok(Bracket { inside, refuted_here, fails, ..Bracket::default() })
-}
-
-/// What is found for the least share of the gap for which something is: of [`SHARES`], and, if it is
-/// none of those that are enough, from there towards the last for which nothing was found. Cancelled, it
-/// has what was found before.
-fn nearest<T>(
-    control: &mut Control<'_>,
-    part: [f64; 2],
-    mut found: impl FnMut(f64, &mut Control<'_>) -> Result<Option<T>, NoAnswer>,
-) -> Result<Option<T>, NoAnswer> {
-    let mut steps = Steps::default();
-    let mut found = |share| {
-        let found =
-            control.part(part, |control| steps.next(control, 2, |control| found(share, control)));
-        // What was found before is the answer.
-        match found {
-            Err(NoAnswer::Cancelled) => Ok(Err(())),
-            found => found.map(Ok),
-        }
-    };
-    let mut least = 0.0;
-    for share in SHARES {
-        let Ok(tried) = found(share)? else { return Ok(None) };
-        let Some(mut best) = tried else {
-            least = share;
-            continue;
-        };
-        let mut most = share;
-        for _ in 0..if share > ENOUGH { NEARER } else { 0 } {
-            let between = (least * most).sqrt();
-            match found(between)? {
-                Ok(Some(better)) => (best, most) = (better, between),
-                Ok(None) => least = between,
-                Err(()) => break,
-            }
-        }
-        return Ok(Some(best));
-    }
-    Ok(None)
+    let out_of_time = found.out_of_time;
+    Ok(Bracket { inside, refuted_here, fails, out_of_time, ..Bracket::default() })
 }
 
 /// Whether a cube of this side fits with its centre in the workspace of `claim`: at most one of the
@@ -215,12 +182,13 @@ pub fn cube_of_side(
     const FINE: f64 = 1e-9;
     let mut bracket = Bracket::default();
     let wanted = approximate(side).unwrap_or(f64::INFINITY);
-    let place = best_place(claim, Centres::Workspace, FINE * PLACEMENT, control)?;
+    let place = best_place(claim, Centres::Workspace, FINE * PLACEMENT, budget.shared(3), control)?;
     if let Some(place) = place.filter(|place| place.side >= wanted * (1.0 - 1e-12)) {
         bracket.inside = certified(claim, side, &place.centre, FINE, budget, control)?;
     }
     if bracket.inside.is_none() && claim.orientation.is_none() {
         let excluded = exclude(claim, side, budget, control)?;
+        bracket.out_of_time = budget.is_over();
         bracket.too_large =
             excluded.map(|certificate| TooLarge { side: side.clone(), certificate });
     }
@@ -276,34 +244,4 @@ fn decimal(x: f64, width: f64) -> Option<BigRational> {
     let places = 2 - width.log10().floor() as i32;
     let grid = BigRational::from_integer(BigInt::from(10)).pow(places);
     Some((BigRational::from_f64(x)? * &grid).round() / grid)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_nearest_share_that_works_is_come_near_to() {
-        let cancel = std::sync::atomic::AtomicBool::new(false);
-        let control = &mut Control { cancel: &cancel, progress: &mut |_| {} };
-        for least in [0.2, 0.3, 0.4, 0.6, 7.3, 49.0, 300.0, 9e4] {
-            let mut tries = 0;
-            let found = nearest(control, [0.0, 1.0], |share, _| {
-                tries += 1;
-                Ok((share >= least).then_some(share))
-            });
-            let found = found.unwrap().unwrap();
-            let enough = if least <= ENOUGH { ENOUGH } else { 1.3 * least };
-            assert!((least..=enough).contains(&found), "{least}: {found}");
-            assert!(tries <= SHARES.len() + NEARER);
-        }
-        let all = [0.0, 1.0];
-        assert_eq!(nearest(control, all, |_, _| Ok(None::<f64>)).unwrap(), None);
-        let cancelled = |_, _: &mut Control<'_>| Err::<Option<f64>, _>(NoAnswer::Cancelled);
-        assert_eq!(nearest(control, all, cancelled), Ok(None));
-        let mut found = Some(5.0);
-        let then_cancelled =
-            |_, _: &mut Control<'_>| found.take().map(Some).ok_or(NoAnswer::Cancelled);
-        assert_eq!(nearest(control, all, then_cancelled), Ok(Some(5.0)));
-    }
 }

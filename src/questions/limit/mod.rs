@@ -25,6 +25,7 @@ pub use search::limits;
 
 use crate::exact::decimal::shortest;
 use crate::questions::frontier::NoAnswer;
+use crate::search::is_over;
 use num_rational::BigRational;
 use num_traits::Signed;
 use orthocert_checker::certificate::Verdict;
@@ -175,6 +176,6 @@ impl Question {
     }
 
     fn is_over(&self) -> bool {
-        self.deadline.is_some_and(|deadline| Instant::now() >= deadline)
+        is_over(self.deadline)
     }
 }

@@ -173,7 +173,7 @@ pub fn summary(
         let ends = match &asked {
             _ if singular => Err(NotEnclosed::Singular),
             _ if control.is_cancelled() => Err(NotEnclosed::Cancelled),
-            _ if is_over(budget) => Err(NotEnclosed::Undecided),
+            _ if budget.is_over() => Err(NotEnclosed::Undecided),
             Asked::Extreme(extreme)
                 if deviation::is_one_of_two(claim, &extreme.bounded().requirement) =>
             {
@@ -303,11 +303,6 @@ fn required(claim: &MachineClaim, extreme: &Extreme) -> Option<BigRational> {
         _ => None,
     });
     bounds.next()
-}
-
-/// Whether the time is up.
-fn is_over(budget: Budget) -> bool {
-    budget.deadline.is_some_and(|deadline| Instant::now() >= deadline)
 }
 
 impl Found {

@@ -1,7 +1,7 @@
 //! What each tolerance adds to the inaccuracy: the bound on `accuracy` with one tolerance alone.
 
 use super::deviation::{deviation, is_one_of_two};
-use super::{is_over, End, Found};
+use super::{End, Found};
 use crate::exact::Exact;
 use crate::questions::tolerance::{around, parameters};
 use crate::report::parameter;
@@ -141,7 +141,7 @@ pub fn shares(
                 place
             }
         };
-        let bound = match is_over(budget) {
+        let bound = match budget.is_over() {
             true => Err(NotEnclosed::Undecided),
             false => steps.next(control, 1 + count - number.min(count), |control| {
                 let own = &one.require[0];

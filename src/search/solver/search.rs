@@ -10,7 +10,6 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
 
 /// A box, in the problem's unit.
 pub type Cell = Vec<Pair>;
@@ -260,7 +259,7 @@ fn interrupted(budget: &Budget, cancel: &AtomicBool) -> Result<(), Stop> {
     if cancel.load(Ordering::Relaxed) {
         return Err(Stop::Cancelled);
     }
-    let is_over = budget.deadline.is_some_and(|deadline| Instant::now() >= deadline);
+    let is_over = budget.is_over();
     if is_over {
         Err(Stop::Time)
     } else {

@@ -373,18 +373,17 @@ fn a_known_tolerance_is_improved() {
         let budget = Budget { max_boxes: 2_000, deadline };
         widest(&claim, &scheme, gap, known, budget, &mut control).expect("an answer")
     };
-    let (none, is_short) = found(0.01, Bracket::default(), Some(std::time::Instant::now()));
-    assert!(is_short && none.certified.is_none());
-    let coarse = found(0.5, Bracket::default(), None).0;
-    let (fine, is_short) = found(0.01, Bracket::default(), None);
-    assert!(!is_short);
-    let first = Bracket { certified: coarse.certified, refuted: fine.refuted };
-    let (second, is_short) = found(0.01, first.clone(), None);
-    assert!(!is_short);
-    assert!(second.gap().is_some_and(|gap| gap <= BigRational::new(1.into(), 100.into())));
+    let none = found(0.01, Bracket::default(), Some(std::time::Instant::now()));
+    assert!(none.out_of_time && none.certified.is_none());
+    let coarse = found(0.5, Bracket::default(), None);
+    let fine = found(0.01, Bracket::default(), None);
+    assert!(!fine.out_of_time);
+    let first = Bracket { certified: coarse.certified, ..fine };
+    let second = found(0.01, first.clone(), None);
+    assert!(!second.out_of_time && second.reaches(0.01));
     let value = |end: &Option<(BigRational, _)>| end.as_ref().expect("an end").0.clone();
     assert_eq!(value(&second.refuted), value(&first.refuted));
     assert!(value(&second.certified) > value(&first.certified));
-    let (third, is_short) = found(0.01, second.clone(), Some(std::time::Instant::now()));
-    assert!(is_short && value(&third.certified) == value(&second.certified));
+    let third = found(0.01, second.clone(), Some(std::time::Instant::now()));
+    assert!(third.out_of_time && value(&third.certified) == value(&second.certified));
 }
