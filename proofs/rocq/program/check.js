@@ -71,6 +71,14 @@ files.forEach((file, i) => {
   if (answer !== right) fail(`${file}: ${right} by orthocert-check`);
 });
 console.log(`${covered} of ${files.length} certificates are covered, with one answer of all three`);
+{
+  const some = [...files.slice(0, 3), path.join(__dirname, "Makefile"), path.join(__dirname, "none")];
+  const [own, other] = [[process.execPath, script], [native]].map(([program, ...more]) => {
+    const { status, stdout } = spawnSync(program, [...more, ...some], { encoding: "utf8" });
+    return `${stdout}exit ${status}`;
+  });
+  if (own !== other || !own.endsWith("REJECTED\nexit 5")) fail(`node verified.js says\n${own}\nand orthocert-verified\n${other}`);
+}
 
 // Exports to Rocq: nothing but what the program does not cover is refused, and in its words. Files that cannot be
 // read (exit 5), the program may not cover.

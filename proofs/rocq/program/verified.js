@@ -3,19 +3,19 @@
 globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurable:true,get:b}),_T_));function
 b(){var
 b=this||self;b.globalThis=b;delete
-a.prototype._T_}}(Object));(function($){"use strict";var
-lV="spatial",t0="Invalid_argument",iY="precision",a0='"',lU=1255,i6="inside",sX="(",sY=0x800,tZ="yaw",sU="range",sV="tree",sW="jsError",cI=0x8000,tY="sqrt(",sT=256,iX="obligation",tX="load",gS="offset",bG="machine",sS="End_of_file",fw="strut",lT="center",gR="arm",lS="Failure",tW="serial_margin",i5="parameters",df=0xff,tV="bodies",tU="max_angle",l6="outside",gQ="base_axis",lR="ENOENT",tT="singular",tS=122,sR="([^/]+)",tR="0",lQ=0xf,gP=128,sQ=0xdc00,tP="Sys_blocked_io",tQ="fd ",gH="given",sP="ENOTEMPTY",bd=248,iW="bound",sO="Division_by_zero",tN="by",tO=1027,sN="Sys_error",tM="together",gO="slider",sM="torsion",tL="postulate",sL="proof",l5="joint_error",gN="refuted",fp="mechanism",iV="row",sK="EEXIST",tK="roll_pitch_yaw",gM="y",sJ="cube",dN="lower",tJ="within",sI="clearance",tI="turned",sH="control",iU="int_of_string",sG="between",tG="definitions",tH="dependent",gL=1024,sE="from",sF="name",tF=" : flags Open_rdonly and Open_wronly are not compatible",sD="orthocert/2",tE="reach",sC=512,tC="base_joint",tD="witness",fv="-",bw="platform",sB=0x7ff0,sA="pitch",l4=": Not a directory",b2="min",tA="trim",fu="workspace",tB=" : file already exists",iT="split",l3="legs",tz="claim",lP="joint",ez=0xffffff,sz="platform_joint",sy="formulas",sx="roll",iS="atlas",tw="greatest",tx="nodes",ty="Out_of_memory",sw="psi_max",i4="orientation",iR=254,tv="angle",l2="index out of bounds",sv="end",tu="one_to_one",i3="_bigarr02",su=" : flags Open_text and Open_binary are not compatible",tt="inverse",bF="drive",st="coordinates",ts="holds",iQ="lower_divided",ss="speed",tq="cylinder",tr="joints",de=0xffff,tm="a leaf that fails",tn="acceleration",to="force",gJ="certified",gK="chords",tp=12520,lO="on",tl="same",fo="accuracy",gI="axis",tk="no_cube",tj="parallel_margin",sr='the drive "',lN="Unix.Unix_error",i2="fails",iP="tool",lM="mkdir",th="rho",ti="least",i1=1000,lL="translational",i0="tolerances",sq="Stack_overflow",l1="characteristic_length",ai="",l0="^",iN="places",iO=": No such file or directory",sp="/static/",ft=0x3f,sn="stiffness",so="Not_found",cH="planar",gG="mode",tg="joint_speed",tf="Match_failure",sm="transmission",b1="anchor",te="at",sl="joint_force",fs="leg",sk="joint_acceleration",iZ="+",lK="rmdir",td=0xf0,tc="spherical",sj=1026,ta="REJECTED",tb="undecided",b4="max",b3="direction",sh="leg_angle",si="orthoglide",fr="rank",s_="constraint_margin",s$="fan",se="the acceleration of a joint of a machine with a plane",gF="test",sf="Pervasives.do_at_exit",sg="utf8",cl=0x80,fq="conditioning",fn="length",sd="Undefined_recursive_module",lZ=")",sc="base",s9="quantity",sb="joint_range",iM="tilt",lY="divided",sa="Q2",s8="reference",r$="point",s6="corner",s7=0xe0,r_="version",lX="z",s4="to",s5=0xdfff,lJ="compare: functional value",s3="Assert_failure",cn="/",s2="provenance",ey="radius",iL="side",s0=-14,cm="require",s1="format",r9="Q1",lW="ENOTDIR",r8="all",ex="box",sZ=250;function
-mh(c,b,a){var
+a.prototype._T_}}(Object));(function(Z){"use strict";var
+lW="spatial",t1="Invalid_argument",iY="precision",a0='"',lV=1255,i6="inside",sY="(",sZ=0x800,t0="yaw",sV="range",sW="tree",sX="jsError",cI=0x8000,tZ="sqrt(",sU=256,iX="obligation",tY="load",gS="offset",bG="machine",sT="End_of_file",fw="strut",lU="center",gR="arm",lT="Failure",tX="serial_margin",i5="parameters",df=0xff,tW="bodies",lS="\n",tV="max_angle",l7="outside",gQ="base_axis",lR="ENOENT",tU="singular",tT=122,sS="([^/]+)",tS="0",lQ=0xf,gP=128,sR=0xdc00,tQ="Sys_blocked_io",tR="fd ",gH="given",sQ="ENOTEMPTY",bd=248,iW="bound",sP="Division_by_zero",tO="by",tP=1027,sO="Sys_error",tN="together",gO="slider",sN="torsion",tM="postulate",sM="proof",l6="joint_error",gN="refuted",fp="mechanism",iV="row",sL="EEXIST",tL="roll_pitch_yaw",gM="y",sK="cube",dN="lower",tK="within",sJ="clearance",tJ="turned",sI="control",iU="int_of_string",sH="between",tH="definitions",tI="dependent",gL=1024,sF="from",sG="name",tG=" : flags Open_rdonly and Open_wronly are not compatible",sE="orthocert/2",tF="reach",sD=512,tD="base_joint",tE="witness",fv="-",bw="platform",sC=0x7ff0,sB="pitch",l5=": Not a directory",b2="min",tB="trim",fu="workspace",tC=" : file already exists",iT="split",l4="legs",tA="claim",lP="joint",ez=0xffffff,sA="platform_joint",sz="formulas",sy="roll",iS="atlas",tx="greatest",ty="nodes",tz="Out_of_memory",sx="psi_max",i4="orientation",iR=254,tw="angle",l3="index out of bounds",sw="end",tv="one_to_one",i3="_bigarr02",sv=" : flags Open_text and Open_binary are not compatible",tu="inverse",bF="drive",su="coordinates",tt="holds",iQ="lower_divided",st="speed",tr="cylinder",ts="joints",de=0xffff,tn="a leaf that fails",to="acceleration",tp="force",gJ="certified",gK="chords",tq=12520,lO="on",tm="same",fo="accuracy",gI="axis",tl="no_cube",tk="parallel_margin",ss='the drive "',lN="Unix.Unix_error",i2="fails",iP="tool",lM="mkdir",ti="rho",tj="least",i1=1000,lL="translational",i0="tolerances",sr="Stack_overflow",l2="characteristic_length",ai="",l1="^",iN="places",iO=": No such file or directory",sq="/static/",ft=0x3f,so="stiffness",sp="Not_found",cH="planar",gG="mode",th="joint_speed",tg="Match_failure",sn="transmission",b1="anchor",tf="at",sm="joint_force",fs="leg",sl="joint_acceleration",iZ="+",lK="rmdir",te=0xf0,td="spherical",sk=1026,tb="REJECTED",tc="undecided",b4="max",b3="direction",si="leg_angle",sj="orthoglide",fr="rank",s$="constraint_margin",ta="fan",sf="the acceleration of a joint of a machine with a plane",gF="test",sg="Pervasives.do_at_exit",sh="utf8",cl=0x80,fq="conditioning",fn="length",se="Undefined_recursive_module",l0=")",sd="base",s_="quantity",sc="joint_range",iM="tilt",lZ="divided",sb="Q2",s9="reference",sa="point",s7="corner",s8=0xe0,r$="version",lY="z",s5="to",s6=0xdfff,lJ="compare: functional value",s4="Assert_failure",cn="/",s3="provenance",ey="radius",iL="side",s1=-14,cm="require",s2="format",r_="Q1",lX="ENOTDIR",r9="all",ex="box",s0=250;function
+mi(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
 e=ai;for(;0<a;b+=gL,a-=gL)e+=d.apply(null,c.slice(b,b+Math.min(a,gL)));return e}function
-i8(b){if($.Uint8Array)var
-c=new($.Uint8Array)(b.l);else
+i8(b){if(Z.Uint8Array)var
+c=new(Z.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-gT(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?mh(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?mh(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)i8(b);var
+gT(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?mi(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?mi(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)i8(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
@@ -24,7 +24,7 @@ i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
 fz(a){return a}function
 fy(a,b,c,d,e){gT(fz(a),b,c,d,e);return 0}function
-l8(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+l9(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
 dg(c,a){if(c.fun)return dg(c.fun,a);if(typeof
@@ -37,22 +37,22 @@ e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
 b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return dg(c,d)}}function
-up(b,a){if(b==0)return ai;if(a.repeat)return a.repeat(b);var
+uq(b,a){if(b==0)return ai;if(a.repeat)return a.repeat(b);var
 d=ai,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-fA(a){if(a.t==2)a.c+=up(a.l-a.c.length,"\0");else
-a.c=mh(a.c,0,a.c.length);a.t=0}function
+fA(a){if(a.t==2)a.c+=uq(a.l-a.c.length,"\0");else
+a.c=mi(a.c,0,a.c.length);a.t=0}function
 fB(a){a.t&6&&fA(a);return a.c}var
-Mk=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-Mj(a){if(Mk)return Math.floor(Math.log2(a));var
+Ml=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+Mk(a){if(Ml)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-l$(c){var
-a=new($.Float32Array)(1);a[0]=c;var
-b=new($.Int32Array)(a.buffer);return b[0]|0}var
-uh=Math.pow(2,-24);function
-Ma(a){throw a}var
+ma(c){var
+a=new(Z.Float32Array)(1);a[0]=c;var
+b=new(Z.Int32Array)(a.buffer);return b[0]|0}var
+ui=Math.pow(2,-24);function
+Mb(a){throw a}var
 aQ=[0];function
-um(){Ma(aQ.Division_by_zero)}function
+un(){Mb(aQ.Division_by_zero)}function
 Y(b,c,a){this.lo=b&ez;this.mi=c&ez;this.hi=a&de}Y.prototype.caml_custom="_j";Y.prototype.copy=function(){return new
 Y(this.lo,this.mi,this.hi)};Y.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};Y.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};Y.prototype.neg=function(){var
@@ -62,7 +62,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 Y(b,c,d)};Y.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 Y(b,c,d)};Y.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*uh|0)+this.mi*a.lo+this.lo*a.mi,d=(c*uh|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*ui|0)+this.mi*a.lo+this.lo*a.mi,d=(c*ui|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 Y(b,c,d)};Y.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};Y.prototype.isNeg=function(){return this.hi<<16<0};Y.prototype.and=function(a){return new
 Y(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};Y.prototype.or=function(a){return new
 Y(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};Y.prototype.xor=function(a){return new
@@ -80,22 +80,22 @@ Y(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&de);return new
 Y(this.hi<<16>>a-32,b,b)};Y.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&ez;this.lo=this.lo<<1&ez};Y.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&ez;this.mi=(this.mi>>>1|this.hi<<23)&ez;this.hi=this.hi>>>1};Y.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 Y(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};Y.prototype.div=function(a){var
-b=this;if(a.isZero())um();var
+b=this;if(a.isZero())un();var
 d=b.hi^a.hi;if(b.hi&cI)b=b.neg();if(a.hi&cI)a=a.neg();var
 c=b.udivmod(a).quotient;if(d&cI)c=c.neg();return c};Y.prototype.mod=function(b){var
-a=this;if(b.isZero())um();var
+a=this;if(b.isZero())un();var
 d=a.hi;if(a.hi&cI)a=a.neg();if(b.hi&cI)b=b.neg();var
 c=a.udivmod(b).modulus;if(d&cI)c=c.neg();return c};Y.prototype.toInt=function(){return this.lo|this.mi<<24};Y.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};Y.prototype.toArray=function(){return[this.hi>>8,this.hi&df,this.mi>>16,this.mi>>8&df,this.mi&df,this.lo>>16,this.lo>>8&df,this.lo&df]};Y.prototype.lo32=function(){return this.lo|(this.mi&df)<<24};Y.prototype.hi32=function(){return this.mi>>>8&de|this.hi<<16};function
 i_(b,c,a){return new
 Y(b,c,a)}function
-i9(a){if(!isFinite(a)){if(isNaN(a))return i_(1,0,sB);return a>0?i_(0,0,sB):i_(0,0,0xfff0)}var
+i9(a){if(!isFinite(a)){if(isNaN(a))return i_(1,0,sC);return a>0?i_(0,0,sC):i_(0,0,0xfff0)}var
 f=a==0&&1/a==-Infinity?cI:a>=0?0:cI;if(f)a=-a;var
-b=Mj(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-sj)}else{a/=Math.pow(2,b-tO);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+b=Mk(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-sk)}else{a/=Math.pow(2,b-tP);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
 g=a|0;c=c&lQ|f|b<<4;return i_(g,e,c)}function
 gW(a){return a.toArray()}function
-t7(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==i3)for(var
+t8(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==i3)for(var
 a=0;a<b.dims.length;a++)if(b.dims[a]<de)c.write(16,b.dims[a]);else{c.write(16,de);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
@@ -121,44 +121,44 @@ e=gW(i9(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=l$(b.get(a));c.write(32,e)}break;case
+e=ma(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,l$(d[1]));c.write(32,l$(d[2]))}break;case
+d=b.get(a);c.write(32,ma(d[1]));c.write(32,ma(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
 f=b.get(a),e=gW(i9(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
 e=gW(i9(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-Mc(b,a){throw[0,b,a]}function
-uu(a){if(a.length<24){for(var
+Md(b,a){throw[0,b,a]}function
+uv(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-mi(e){for(var
+mj(e){for(var
 j=ai,c=ai,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<cl){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<cl;d++);if(d-b>sC){c.substr(0,1);j+=c;c=ai;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==gP){g=h+(f<<6);if(f<s7){a=g-0x3080;if(a<cl)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==gP){g=h+(g<<6);if(f<td){a=g-0xe2080;if(a<sY||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==gP&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>de)c+=String.fromCharCode(0xd7c0+(a>>10),sQ+(a&0x3FF));else
+d=b+1;d<i&&(f=e.charCodeAt(d))<cl;d++);if(d-b>sD){c.substr(0,1);j+=c;c=ai;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==gP){g=h+(f<<6);if(f<s8){a=g-0x3080;if(a<cl)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==gP){g=h+(g<<6);if(f<te){a=g-0xe2080;if(a<sZ||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==gP&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>de)c+=String.fromCharCode(0xd7c0+(a>>10),sR+(a&0x3FF));else
 c+=String.fromCharCode(a);if(c.length>gL){c.substr(0,1);j+=c;c=ai}}return j+c}function
 cJ(c,a,b){this.t=c;this.c=a;this.l=b}cJ.prototype.toString=function(){switch(this.t){case
 9:return this.c;default:fA(this);case
-0:if(uu(this.c)){this.t=9;return this.c}this.t=8;case
+0:if(uv(this.c)){this.t=9;return this.c}this.t=8;case
 8:return this.c}};cJ.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return mi(a)};cJ.prototype.slice=function(){var
+a=this.toString();if(this.t==9)return a;return mj(a)};cJ.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
 cJ(this.t,a,this.l)};function
-t_(a){return new
+t$(a){return new
 cJ(0,a,a.length)}function
-b(a){return t_(a)}function
-mg(c,a){Mc(c,b(a))}function
-a9(a){mg(aQ.Invalid_argument,a)}function
-t5(a){switch(a){case
+b(a){return t$(a)}function
+mh(c,a){Md(c,b(a))}function
+a9(a){mh(aQ.Invalid_argument,a)}function
+t6(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-LG(c,e){var
-b=$,a;switch(c){case
+LH(c,e){var
+b=Z,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
 2:a=b.Int8Array;break;case
@@ -173,26 +173,26 @@ b=$,a;switch(c){case
 11:a=b.Float64Array;break;case
 12:a=b.Uint8Array;break}if(!a)a9("Bigarray.create: unsupported kind");var
 d=new
-a(e*t5(c));return d}function
-ma(c){var
-a=new($.Int32Array)(1);a[0]=c;var
-b=new($.Float32Array)(a.buffer);return b[0]}function
+a(e*t6(c));return d}function
+mb(c){var
+a=new(Z.Int32Array)(1);a[0]=c;var
+b=new(Z.Float32Array)(a.buffer);return b[0]}function
 gV(a){return new
 Y(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-mb(d){var
+mc(d){var
 f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&lQ)==0?b&cI?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&lQ);if(c>0){a+=16;a*=Math.pow(2,c-tO)}else
-a*=Math.pow(2,-sj);if(b&cI)a=-a;return a}function
-l7(b){var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&lQ);if(c>0){a+=16;a*=Math.pow(2,c-tP)}else
+a*=Math.pow(2,-sk);if(b&cI)a=-a;return a}function
+l8(b){var
 d=b.length,c=1;for(var
 a=0;a<d;a++){if(b[a]<0)a9("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-LW(b,a){return new
+LX(b,a){return new
 Y(b&ez,b>>>24&df|(a&de)<<8,a>>>16&de)}function
-mc(a){return a.hi32()}function
-md(a){return a.lo32()}function
-i7(){a9(l2)}var
-LH=i3;function
-dO(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dO.prototype.caml_custom=LH;dO.prototype.offset=function(b){var
+md(a){return a.hi32()}function
+me(a){return a.lo32()}function
+i7(){a9(l3)}var
+LI=i3;function
+dO(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dO.prototype.caml_custom=LI;dO.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
@@ -201,15 +201,15 @@ a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])i7();c=c*this.dims[a]+
 for(var
 a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])i7();c=c*this.dims[a]+(b[a]-1)}return c};dO.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return LW(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return LX(d,b);case
 10:case
 11:var
 e=this.data[a*2+0],c=this.data[a*2+1];return[iR,e,c];default:return this.data[a]}};dO.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=md(b);this.data[a*2+1]=mc(b);break;case
+7:this.data[a*2+0]=me(b);this.data[a*2+1]=md(b);break;case
 10:case
 11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};dO.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=md(b),e=mc(b);if(c==e)this.data.fill(c);else
+c=me(b),e=md(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
@@ -242,12 +242,12 @@ a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
 a9("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])i7();return a};fx.prototype.get=function(a){return this.data[a]};fx.prototype.set=function(a,b){this.data[a]=b;return 0};fx.prototype.fill=function(a){this.data.fill(a);return 0};function
-t3(c,d,a,b){var
-e=t5(c);if(l7(a)*e!=b.length)a9("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+t4(c,d,a,b){var
+e=t6(c);if(l8(a)*e!=b.length)a9("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
 fx(c,d,a,b);return new
 dO(c,d,a,b)}function
-co(a){if(!aQ.Failure)aQ.Failure=[bd,b(lS),-3];mg(aQ.Failure,a)}function
-t4(b,v,r){var
+co(a){if(!aQ.Failure)aQ.Failure=[bd,b(lT),-3];mh(aQ.Failure,a)}function
+t5(b,v,r){var
 i=b.read32s();if(i<0||i>16)co("input_value: wrong number of bigarray dimensions");var
 p=b.read32s(),j=p&df,o=p>>8&1,h=[];if(r==i3)for(var
 a=0;a<i;a++){var
@@ -255,7 +255,7 @@ n=b.read16u();if(n==de){var
 t=b.read32u(),u=b.read32u();if(t!=0)co("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=l7(h),f=LG(j,d),g=t3(j,o,h,f);switch(j){case
+d=l8(h),f=LH(j,d),g=t4(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -282,31 +282,31 @@ e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=mb(gV(e));g.set(a,k)}break;case
+k=mc(gV(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=ma(b.read32s());g.set(a,k)}break;case
+k=mb(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=ma(b.read32s()),l=ma(b.read32s());g.set(a,[iR,m,l])}break;case
+m=mb(b.read32s()),l=mb(b.read32s());g.set(a,[iR,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=mb(gV(e));for(var
+m=mc(gV(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=mb(gV(e));g.set(a,[iR,m,l])}break}v[0]=(4+i)*4;return t3(j,o,h,f)}function
-t2(a,b,c){return a.compare(b,c)}function
-mf(a,b){return Math.imul(a,b)}function
-dh(b,a){a=mf(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=mf(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-LT(a,b){a=dh(a,md(b));a=dh(a,mc(b));return a}function
-ug(a,b){return LT(a,i9(b))}function
-t6(c){var
-b=l7(c.dims),d=0;switch(c.kind){case
+l=mc(gV(e));g.set(a,[iR,m,l])}break}v[0]=(4+i)*4;return t4(j,o,h,f)}function
+t3(a,b,c){return a.compare(b,c)}function
+mg(a,b){return Math.imul(a,b)}function
+dh(b,a){a=mg(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=mg(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+LU(a,b){a=dh(a,me(b));a=dh(a,md(b));return a}function
+uh(a,b){return LU(a,i9(b))}function
+t7(c){var
+b=l8(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>sT)b=sT;var
+12:if(b>sU)b=sU;var
 e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=dh(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
@@ -323,75 +323,75 @@ a=0;a<b;a++)d=dh(d,c.data[a]);break;case
 a=0;a<b;a++)d=dh(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=ug(d,c.data[a]);break;case
+a=0;a<b;a++)d=uh(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=ug(d,c.data[a]);break}return d}function
-LU(a,b){b[0]=4;return a.read32s()}function
-L9(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=uh(d,c.data[a]);break}return d}function
+LV(a,b){b[0]=4;return a.read32s()}function
+L_(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
 2:co("input_value: native integer value too large");default:co("input_value: ill-formed native integer")}}function
-LZ(c,d){var
+L0(c,d){var
 b=new
 Array(8);for(var
 a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return gV(b)}function
-LY(e,d,b){var
+LZ(e,d,b){var
 c=gW(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-LV(a,b,c){return a.compare(b)}function
-LX(a){return a.lo32()^a.hi32()}var
-ub={"_j":{deserialize:LZ,serialize:LY,fixed_length:8,compare:LV,hash:LX},"_i":{deserialize:LU,fixed_length:4},"_n":{deserialize:L9,fixed_length:4},"_bigarray":{deserialize:function(a,b){return t4(a,b,"_bigarray")},serialize:t7,compare:t2,hash:t6},"_bigarr02":{deserialize:function(a,b){return t4(a,b,i3)},serialize:t7,compare:t2,hash:t6}};function
-l_(a){return ub[a.caml_custom]&&ub[a.caml_custom].compare}function
-t$(f,c,d,e){var
-b=l_(c);if(b){var
+LW(a,b,c){return a.compare(b)}function
+LY(a){return a.lo32()^a.hi32()}var
+uc={"_j":{deserialize:L0,serialize:LZ,fixed_length:8,compare:LW,hash:LY},"_i":{deserialize:LV,fixed_length:4},"_n":{deserialize:L_,fixed_length:4},"_bigarray":{deserialize:function(a,b){return t5(a,b,"_bigarray")},serialize:t8,compare:t3,hash:t7},"_bigarr02":{deserialize:function(a,b){return t5(a,b,i3)},serialize:t8,compare:t3,hash:t7}};function
+l$(a){return uc[a.caml_custom]&&uc[a.caml_custom].compare}function
+ua(f,c,d,e){var
+b=l$(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-me(a){return a
+mf(a){return a
 instanceof
 cJ}function
-ui(a){return me(a)}function
-ua(a){if(typeof
+uj(a){return mf(a)}function
+ub(a){if(typeof
 a==="number")return i1;else
-if(me(a))return 252;else
-if(ui(a))return 1252;else
+if(mf(a))return 252;else
+if(uj(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
 b=a[0]|0;return b==iR?0:b}else
 if(a
 instanceof
-String)return tp;else
+String)return tq;else
 if(typeof
-a=="string")return tp;else
+a=="string")return tq;else
 if(a
 instanceof
 Number)return i1;else
-if(a&&a.caml_custom)return lU;else
+if(a&&a.caml_custom)return lV;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-L0(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-t9(a,b){a.t&6&&fA(a);b.t&6&&fA(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-uq(a,b){return t9(a,b)}function
-l9(a,b,d){var
+L1(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+t_(a,b){a.t&6&&fA(a);b.t&6&&fA(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+ur(a,b){return t_(a,b)}function
+l_(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=ua(a);if(f==sZ){a=a[1];continue}var
-g=ua(b);if(g==sZ){b=b[1];continue}if(f!==g){if(f==i1){if(g==lU)return t$(a,b,-1,d);return-1}if(g==i1){if(f==lU)return t$(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+f=ub(a);if(f==s0){a=a[1];continue}var
+g=ub(b);if(g==s0){b=b[1];continue}if(f!==g){if(f==i1){if(g==lV)return ua(a,b,-1,d);return-1}if(g==i1){if(f==lV)return ua(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
 247:a9(lJ);break;case
 248:var
-c=L0(a[2],b[2]);if(c!=0)return c|0;break;case
+c=L1(a[2],b[2]);if(c!=0)return c|0;break;case
 249:a9(lJ);break;case
 250:a9("equal: got Forward_tag, should not happen");break;case
 251:a9("equal: abstract value");break;case
 252:if(a!==b){var
-c=t9(a,b);if(c!=0)return c|0}break;case
+c=t_(a,b);if(c!=0)return c|0}break;case
 253:a9("equal: got Double_tag, should not happen");break;case
 254:a9("equal: got Double_array_tag, should not happen");break;case
 255:a9("equal: got Custom_tag, should not happen");break;case
 1247:a9(lJ);break;case
 1255:var
-i=l_(a);if(i!=l_(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)a9("compare: abstract value");var
+i=l$(a);if(i!=l$(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)a9("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -405,130 +405,130 @@ a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;ca
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-LO(a,b){return l9(a,b,true)}function
+LP(a,b){return l_(a,b,true)}function
 cL(a){if(a<0)a9("Bytes.create");return new
 cJ(a?2:9,ai,a)}function
-uc(a,b){return+(l9(a,b,false)==0)}function
-LQ(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=ai;a.t=2}else{a.c=up(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)i8(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-L_=0;function
-ue(){return L_++}function
-L2(a){return a.toUtf16()}function
+ud(a,b){return+(l_(a,b,false)==0)}function
+LR(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=ai;a.t=2}else{a.c=uq(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)i8(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+L$=0;function
+uf(){return L$++}function
+L3(a){return a.toUtf16()}function
 gX(){return typeof
-$.process!=="undefined"&&typeof
-$.process.versions!=="undefined"&&typeof
-$.process.versions.node!=="undefined"}function
-Ml(){function
+Z.process!=="undefined"&&typeof
+Z.process.versions!=="undefined"&&typeof
+Z.process.versions.node!=="undefined"}function
+Mm(){function
 a(a){if(a.charAt(0)===cn)return[ai,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||ai,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||ai,f=a[2]||ai;return[d,c.substring(d.length+f.length)]}return}return gX()&&$.process&&$.process.platform?$.process.platform==="win32"?b:a:a}var
-ml=Ml();function
-ur(a){return a.slice(-1)!==cn?a+cn:a}if(gX()&&$.process&&$.process.cwd)var
-gU=$.process.cwd().replace(/\\/g,cn);else
+d=a[1]||ai,f=a[2]||ai;return[d,c.substring(d.length+f.length)]}return}return gX()&&Z.process&&Z.process.platform?Z.process.platform==="win32"?b:a:a}var
+mm=Mm();function
+us(a){return a.slice(-1)!==cn?a+cn:a}if(gX()&&Z.process&&Z.process.cwd)var
+gU=Z.process.cwd().replace(/\\/g,cn);else
 var
-gU="/static";gU=ur(gU);function
-L4(a){a=L2(a);if(!ml(a))a=gU+a;var
-e=ml(a),d=e[1].split(cn),b=[];for(var
+gU="/static";gU=us(gU);function
+L5(a){a=L3(a);if(!mm(a))a=gU+a;var
+e=mm(a),d=e[1].split(cn),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-Mg(e){for(var
+Mh(e){for(var
 f=ai,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<cl){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<cl;d++);if(d-c>sC){b.substr(0,1);f+=b;b=ai;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<sY){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(cl|a&ft)}else
-if(a<0xd800||a>=s5)b+=String.fromCharCode(s7|a>>12,cl|a>>6&ft,cl|a&ft);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<sQ||h>s5)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(td|a>>18,cl|a>>12&ft,cl|a>>6&ft,cl|a&ft)}if(b.length>gL){b.substr(0,1);f+=b;b=ai}}return f+b}function
-LL(a){var
-b=9;if(!uu(a))b=8,a=Mg(a);return new
+d=c+1;d<g&&(a=e.charCodeAt(d))<cl;d++);if(d-c>sD){b.substr(0,1);f+=b;b=ai;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<sZ){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(cl|a&ft)}else
+if(a<0xd800||a>=s6)b+=String.fromCharCode(s8|a>>12,cl|a>>6&ft,cl|a&ft);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<sR||h>s6)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(te|a>>18,cl|a>>12&ft,cl|a>>6&ft,cl|a&ft)}if(b.length>gL){b.substr(0,1);f+=b;b=ai}}return f+b}function
+LM(a){var
+b=9;if(!uv(a))b=8,a=Mh(a);return new
 cJ(b,a,a.length)}function
-fC(a){return LL(a)}var
-Mo=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",sK,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",lR,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",lW,sP,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+fC(a){return LM(a)}var
+Mp=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",sL,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",lR,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",lX,sQ,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
 eD(d,f,e,a){var
-b=Mo.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+b=Mp.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
 c=[b,fC(f||ai),fC(e||ai)];return c}var
-uk={};function
-eA(a){return uk[a]}function
+ul={};function
+eA(a){return ul[a]}function
 eB(b,a){throw[0,b].concat(a)}function
-LK(a){return new
+LL(a){return new
 cJ(4,a,a.length)}function
-az(a){mg(aQ.Sys_error,a)}function
-Mb(a){az(a+iO)}function
-t8(){a9(l2)}function
-LJ(b,a){if(a>>>0>=b.l)t8();return l8(b,a)}function
+az(a){mh(aQ.Sys_error,a)}function
+Mc(a){az(a+iO)}function
+t9(){a9(l3)}function
+LK(b,a){if(a>>>0>=b.l)t9();return l9(b,a)}function
 ja(a){return a.l}function
-t1(){}function
+t2(){}function
 a7(a){this.data=a}a7.prototype=new
-t1();a7.prototype.truncate=function(a){var
+t2();a7.prototype.truncate=function(a){var
 b=this.data;this.data=cL(a|0);gT(b,0,this.data,0,a)};a7.prototype.length=function(){return ja(this.data)};a7.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
 e=cL(b+a),f=this.data;this.data=e;gT(f,0,this.data,0,c)}fy(d,g,this.data,b,a);return 0};a7.prototype.read=function(c,a,d,b){var
-e=this.length();gT(this.data,c,a,d,b);return 0};a7.prototype.read_one=function(a){return LJ(this.data,a)};a7.prototype.close=function(){};a7.prototype.constructor=a7;function
+e=this.length();gT(this.data,c,a,d,b);return 0};a7.prototype.read_one=function(a){return LK(this.data,a)};a7.prototype.close=function(){};a7.prototype.constructor=a7;function
 bn(b,a){this.content={};this.root=b;this.lookupFun=a}bn.prototype.nm=function(a){return this.root+a};bn.prototype.create_dir_if_needed=function(d){var
 c=d.split(cn),b=ai;for(var
 a=0;a<c.length-1;a++){b+=c[a]+cn;if(this.content[b])continue;this.content[b]=Symbol("directory")}};bn.prototype.slash=function(a){return/\/$/.test(a)?a:a+cn};bn.prototype.lookup=function(a){if(!this.content[a]&&this.lookupFun){var
 c=this.lookupFun(b(this.root),b(a));if(c!==0){this.create_dir_if_needed(a);this.content[a]=new
 a7(fz(c[1]))}}};bn.prototype.exists=function(a){if(a==ai)return 1;var
 b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};bn.prototype.mkdir=function(c,e,d){var
-b=d&&eA(lN);if(this.exists(c))if(b)eB(b,eD(sK,lM,this.nm(c)));else
+b=d&&eA(lN);if(this.exists(c))if(b)eB(b,eD(sL,lM,this.nm(c)));else
 az(c+": File exists");var
 a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||ai;if(!this.exists(a))if(b)eB(b,eD(lR,lM,this.nm(a)));else
-az(a+iO);if(!this.is_dir(a))if(b)eB(b,eD(lW,lM,this.nm(a)));else
-az(a+l4);this.create_dir_if_needed(this.slash(c))};bn.prototype.rmdir=function(a,f){var
+az(a+iO);if(!this.is_dir(a))if(b)eB(b,eD(lX,lM,this.nm(a)));else
+az(a+l5);this.create_dir_if_needed(this.slash(c))};bn.prototype.rmdir=function(a,f){var
 b=f&&eA(lN),c=a==ai?ai:this.slash(a),e=new
-RegExp(l0+c+sR);if(!this.exists(a))if(b)eB(b,eD(lR,lK,this.nm(a)));else
-az(a+iO);if(!this.is_dir(a))if(b)eB(b,eD(lW,lK,this.nm(a)));else
-az(a+l4);for(var
+RegExp(l1+c+sS);if(!this.exists(a))if(b)eB(b,eD(lR,lK,this.nm(a)));else
+az(a+iO);if(!this.is_dir(a))if(b)eB(b,eD(lX,lK,this.nm(a)));else
+az(a+l5);for(var
 d
 in
-this.content)if(d.match(e))if(b)eB(b,eD(sP,lK,this.nm(a)));else
+this.content)if(d.match(e))if(b)eB(b,eD(sQ,lK,this.nm(a)));else
 az(this.nm(a)+": Directory not empty");delete
 this.content[c]};bn.prototype.readdir=function(a){var
-f=a==ai?ai:this.slash(a);if(!this.exists(a))az(a+iO);if(!this.is_dir(a))az(a+l4);var
+f=a==ai?ai:this.slash(a);if(!this.exists(a))az(a+iO);if(!this.is_dir(a))az(a+l5);var
 g=new
-RegExp(l0+f+sR),d={},c=[];for(var
+RegExp(l1+f+sS),d={},c=[];for(var
 e
 in
 this.content){var
 b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};bn.prototype.is_dir=function(a){if(a==ai)return true;var
 b=this.slash(a);return this.content[b]?1:0};bn.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};bn.prototype.open=function(a,b){if(b.rdonly&&b.wronly)az(this.nm(a)+tF);if(b.text&&b.binary)az(this.nm(a)+su);this.lookup(a);if(this.content[a]){if(this.is_dir(a))az(this.nm(a)+" : is a directory");if(b.create&&b.excl)az(this.nm(a)+tB);var
+this.content[a];return b};bn.prototype.open=function(a,b){if(b.rdonly&&b.wronly)az(this.nm(a)+tG);if(b.text&&b.binary)az(this.nm(a)+sv);this.lookup(a);if(this.content[a]){if(this.is_dir(a))az(this.nm(a)+" : is a directory");if(b.create&&b.excl)az(this.nm(a)+tC);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
 a7(cL(0));return this.content[a]}else
-Mb(this.nm(a))};bn.prototype.register=function(c,a){var
-b;if(this.content[c])az(this.nm(c)+tB);if(me(a))b=new
-a7(a);if(ui(a))b=new
+Mc(this.nm(a))};bn.prototype.register=function(c,a){var
+b;if(this.content[c])az(this.nm(c)+tC);if(mf(a))b=new
+a7(a);if(uj(a))b=new
 a7(fz(a));else
 if(a
 instanceof
 Array)b=new
-a7(LK(a));else
+a7(LL(a));else
 if(typeof
 a==="string")b=new
-a7(t_(a));else
+a7(t$(a));else
 if(a.toString){var
 d=fz(fC(a.toString()));b=new
 a7(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
 az(this.nm(c)+" : registering file with invalid content type")};bn.prototype.constructor=bn;function
 aI(a){return ja(a)}function
-eC(b,a){return l8(b,a)}function
-LF(d){var
+eC(b,a){return l9(b,a)}function
+LG(d){var
 c=aI(d),b=new
 Array(c),a=0;for(;a<c;a++)b[a]=eC(d,a);return b}function
-LE(a){if(a.t!=4)i8(a);return a.c}function
-LN(a,c,b){b&=df;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}i8(a)}a.c[c]=b;return 0}function
-LM(b,a,c){if(a>>>0>=b.l)t8();return LN(b,a,c)}function
+LF(a){if(a.t!=4)i8(a);return a.c}function
+LO(a,c,b){b&=df;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}i8(a)}a.c[c]=b;return 0}function
+LN(b,a,c){if(a>>>0>=b.l)t9();return LO(b,a,c)}function
 cK(a){this.fs=require("fs");this.fd=a}cK.prototype=new
-t1();cK.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){az(a.toString())}};cK.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){az(a.toString())}};cK.prototype.write=function(f,b,c,e){var
-a=LF(b);if(!(a
+t2();cK.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){az(a.toString())}};cK.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){az(a.toString())}};cK.prototype.write=function(f,b,c,e){var
+a=LG(b);if(!(a
 instanceof
-$.Uint8Array))a=new($.Uint8Array)(a);var
-d=$.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){az(a.toString())}return 0};cK.prototype.read=function(g,d,c,f){var
-a=LE(d);if(!(a
+Z.Uint8Array))a=new(Z.Uint8Array)(a);var
+d=Z.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){az(a.toString())}return 0};cK.prototype.read=function(g,d,c,f){var
+a=LF(d);if(!(a
 instanceof
-$.Uint8Array))a=new($.Uint8Array)(a);var
-e=$.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){az(a.toString())}for(var
-b=0;b<f;b++)LM(d,c+b,e[c+b]);return 0};cK.prototype.read_one=function(c){var
-b=new($.Uint8Array)(1),a=$.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){az(a.toString())}return a[0]};cK.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){az(a.toString())}};cK.prototype.constructor=cK;function
+Z.Uint8Array))a=new(Z.Uint8Array)(a);var
+e=Z.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){az(a.toString())}for(var
+b=0;b<f;b++)LN(d,c+b,e[c+b]);return 0};cK.prototype.read_one=function(c){var
+b=new(Z.Uint8Array)(1),a=Z.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){az(a.toString())}return a[0]};cK.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){az(a.toString())}};cK.prototype.constructor=cK;function
 a8(a){this.fs=require("fs");this.root=a}a8.prototype.nm=function(a){return this.root+a};a8.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};a8.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};a8.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};a8.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};a8.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){az(a.toString())}};a8.prototype.unlink=function(a,c){try{var
 b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};a8.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
@@ -539,7 +539,7 @@ d=this.fs.openSync(this.nm(f),b);return new
 cK(d)}catch(a){this.raise_nodejs_error(a,g)}};a8.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};a8.prototype.stat=function(b,c){try{var
 a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};a8.prototype.lstat=function(b,c){try{var
 a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};a8.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};a8.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),sg);return fC(a)}catch(a){this.raise_nodejs_error(a,c)}};a8.prototype.raise_nodejs_error=function(a,d){var
+a=this.fs.readlinkSync(this.nm(b),sh);return fC(a)}catch(a){this.raise_nodejs_error(a,c)}};a8.prototype.raise_nodejs_error=function(a,d){var
 b=eA(lN);if(d&&b){var
 c=eD(a.code,a.syscall,a.path,a.errno);eB(b,c)}else
 az(a.toString())};a8.prototype.stats_from_js=function(a){var
@@ -550,28 +550,28 @@ if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
 if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};a8.prototype.constructor=a8;function
-uf(b){var
-a=ml(b);if(!a)return;return a[0]+cn}var
-jb=uf(gU)||co("unable to compute caml_root"),fD=[];if(gX())fD.push({path:jb,device:new
+ug(b){var
+a=mm(b);if(!a)return;return a[0]+cn}var
+jb=ug(gU)||co("unable to compute caml_root"),fD=[];if(gX())fD.push({path:jb,device:new
 a8(jb)});else
 fD.push({path:jb,device:new
-bn(jb)});fD.push({path:sp,device:new
-bn(sp)});function
-uA(b){var
-g=L4(b),b=g.join(cn),f=ur(b),c;for(var
+bn(jb)});fD.push({path:sq,device:new
+bn(sq)});function
+uB(b){var
+g=L5(b),b=g.join(cn),f=us(b),c;for(var
 e=0;e<fD.length;e++){var
 a=fD[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&gX()){var
-d=uf(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+d=ug(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
 a8(d)};fD.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;az("no device found for "+f)}function
-LP(c,b){var
-a=uA(c);if(!a.device.register)co("cannot register file");a.device.register(a.rest,b);return 0}function
-ut(c,a){var
-c=b(c),a=b(a);return LP(c,a)}function
-LS(){var
-b=$.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)ut(b[a].name,b[a].content);$.jsoo_create_file=ut;$.caml_fs_tmp=[];return 0}function
-L$(c){var
+LQ(c,b){var
+a=uB(c);if(!a.device.register)co("cannot register file");a.device.register(a.rest,b);return 0}function
+uu(c,a){var
+c=b(c),a=b(a);return LQ(c,a)}function
+LT(){var
+b=Z.caml_fs_tmp;if(b)for(var
+a=0;a<b.length;a++)uu(b[a].name,b[a].content);Z.jsoo_create_file=uu;Z.caml_fs_tmp=[];return 0}function
+Ma(c){var
 a=0,e=aI(c),b=10,d=1;if(e>0)switch(eC(c,a)){case
 45:a++;d=-1;break;case
 43:a++;d=1;break}if(a+1<e&&eC(c,a)==48)switch(eC(c,a+1)){case
@@ -583,33 +583,33 @@ a=0,e=aI(c),b=10,d=1;if(e>0)switch(eC(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-ul(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=tS)return a-87;return-1}function
+um(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=tT)return a-87;return-1}function
 i$(f){var
-h=L$(f),c=h[0],i=h[1],d=h[2],g=aI(f),j=-1>>>0,e=c<g?eC(f,c):0,b=ul(e);if(b<0||b>=d)co(iU);var
-a=b;for(c++;c<g;c++){e=eC(f,c);if(e==95)continue;b=ul(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)co(iU)}if(c!=g)co(iU);a=i*a;if(d==10&&(a|0)!=a)co(iU);return a|0}function
-L3(a,b){return+(l9(a,b,false)<=0)}function
-L5(a,d){if(a<0)i7();var
+h=Ma(f),c=h[0],i=h[1],d=h[2],g=aI(f),j=-1>>>0,e=c<g?eC(f,c):0,b=um(e);if(b<0||b>=d)co(iU);var
+a=b;for(c++;c<g;c++){e=eC(f,c);if(e==95)continue;b=um(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)co(iU)}if(c!=g)co(iU);a=i*a;if(d==10&&(a|0)!=a)co(iU);return a|0}function
+L4(a,b){return+(l_(a,b,false)<=0)}function
+L6(a,d){if(a<0)i7();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
 di=new
 Array();function
-L6(c){var
+L7(c){var
 a=di[c];if(!a.opened)az("Cannot flush a closed channel");if(!a.buffer||a.buffer==ai)return 0;if(a.fd&&aQ.fds[a.fd]&&aQ.fds[a.fd].output){var
 b=aQ.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=ai;return 0}function
-uo(e,f){var
+up(e,f){var
 a=di[e],d=b(f),c=aI(d);a.file.write(a.offset,d,0,c);a.offset+=c;return 0}function
-Mh(a){var
-a=mi(a),b=$;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
-c=b.console;c&&c.error&&c.error(a)}}function
 Mi(a){var
-a=mi(a),b=$;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+a=mj(a),b=Z;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+c=b.console;c&&c.error&&c.error(a)}}function
+Mj(a){var
+a=mj(a),b=Z;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
 jd(c,e,d,a){if(aQ.fds===undefined)aQ.fds=new
 Array();a=a?a:{};var
 b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;aQ.fds[c]=b;if(!aQ.fd_last_idx||c>aQ.fd_last_idx)aQ.fd_last_idx=c;return c}function
-Mp(c,b,g){var
+Mq(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,69 +619,74 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)az(fB(c)+tF);if(a.text&&a.binary)az(fB(c)+su);var
-d=uA(c),e=d.device.open(d.rest,a),f=aQ.fd_last_idx?aQ.fd_last_idx:0;return jd(f+1,uo,e,a)}jd(0,uo,new
-a7(cL(0)));jd(1,Mi,new
-a7(cL(0)));jd(2,Mh,new
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)az(fB(c)+tG);if(a.text&&a.binary)az(fB(c)+sv);var
+d=uB(c),e=d.device.open(d.rest,a),f=aQ.fd_last_idx?aQ.fd_last_idx:0;return jd(f+1,up,e,a)}jd(0,up,new
+a7(cL(0)));jd(1,Mj,new
+a7(cL(0)));jd(2,Mi,new
 a7(cL(0)));function
-L7(a){var
-c=aQ.fds[a];if(c.flags.wronly)az(tQ+a+" is writeonly");var
+L8(a){var
+c=aQ.fds[a];if(c.flags.wronly)az(tR+a+" is writeonly");var
 d=null;if(a==0&&gX()){var
-e=require("fs");d=function(){return fC(e.readFileSync(0,sg))}}var
+e=require("fs");d=function(){return fC(e.readFileSync(0,sh))}}var
 b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};di[b.fd]=b;return b.fd}function
-uj(c){var
-b=aQ.fds[c];if(b.flags.rdonly)az(tQ+c+" is readonly");var
+uk(c){var
+b=aQ.fds[c];if(b.flags.rdonly)az(tR+c+" is readonly");var
 a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:ai};di[a.fd]=a;return a.fd}function
-L8(){var
+L9(){var
 b=0;for(var
 a=0;a<di.length;a++)if(di[a]&&di[a].opened&&di[a].out)b=[0,di[a].fd,b];return b}function
-b5(b,c,a){if(a&&$.toplevelReloc)b=$.toplevelReloc(a);aQ[b+1]=c;if(a)aQ[a]=c}function
-Md(a,b){uk[fB(a)]=b;return 0}function
-LI(a,b){if(a===b)return 1;a.t&6&&fA(a);b.t&6&&fA(b);return a.c==b.c?1:0}function
-aM(a,b){return LI(a,b)}function
-Mf(){a9(l2)}function
-be(b,a){if(a>>>0>=aI(b))Mf();return eC(b,a)}function
+b5(b,c,a){if(a&&Z.toplevelReloc)b=Z.toplevelReloc(a);aQ[b+1]=c;if(a)aQ[a]=c}function
+Me(a,b){ul[fB(a)]=b;return 0}function
+LJ(a,b){if(a===b)return 1;a.t&6&&fA(a);b.t&6&&fA(b);return a.c==b.c?1:0}function
+aM(a,b){return LJ(a,b)}function
+Mg(){a9(l3)}function
+be(b,a){if(a>>>0>=aI(b))Mg();return eC(b,a)}function
 p(a,b){return 1-aM(a,b)}function
 jc(a){return a}function
-un(a){return a}function
-us(a){if(a
+uo(a){return a}function
+ut(a){if(a
 instanceof
-Array)return a;if($.RangeError&&a
+Array)return a;if(Z.RangeError&&a
 instanceof
-$.RangeError&&a.message&&a.message.match(/maximum call stack/i))return un(aQ.Stack_overflow);if($.InternalError&&a
+Z.RangeError&&a.message&&a.message.match(/maximum call stack/i))return uo(aQ.Stack_overflow);if(Z.InternalError&&a
 instanceof
-$.InternalError&&a.message&&a.message.match(/too much recursion/i))return un(aQ.Stack_overflow);if(a
+Z.InternalError&&a.message&&a.message.match(/too much recursion/i))return uo(aQ.Stack_overflow);if(a
 instanceof
-$.Error&&eA(sW))return[0,eA(sW),a];return[0,aQ.Failure,fC(String(a))]}function
+Z.Error&&eA(sX))return[0,eA(sX),a];return[0,aQ.Failure,fC(String(a))]}function
 cM(a){return a<0?-a:a}function
 G(a,b){return a+b}function
-mj(a,b){return a<b?-1:a>b?1:0}function
-uw(c,b){var
+mk(a,b){return a<b?-1:a>b?1:0}function
+ux(c,b){var
 a=c%b;return a<0?a+cM(b):a}function
-mk(a,b){return(a-uw(a,b))/b}function
+ml(a,b){return(a-ux(a,b))/b}function
 H(a,b){return a==b?1:0}function
-Mm(c){$.orthocert_verify=function(a){return fB(dg(c,[b(a)]))}}function
+Mn(f){function
+e(a){return fB(dg(f,[b(a)]))}Z.orthocert_verify=e;if(typeof
+module!=="object"||typeof
+require!=="function"||require.main!==module)return;var
+c=Z.process,a=c.argv.slice(2),d=a.length?0:2;if(!a.length)c.stderr.write("usage: node verified.js CERT.json..\n");a.forEach(function(f){var
+b,a;try{b=e(require("fs").readFileSync(f,"latin1"));a={CERTIFIED:0,REFUTED:1,REJECTED:5}[b];c.stdout.write(b+lS);if(a===undefined)a=3}catch(b){c.stderr.write("error: "+b.message+lS);a=2}d=Math.max(d,a)});c.exitCode=d}function
 D(a,b){return a<=b?1:0}function
 I(a,b){return a<b?1:0}function
 E(a,b){return a*b}function
 W(a){return-a}function
-aT(a){return $.BigInt(a)}var
-uz=[];function
-uv(a){return uz[a]||(uz[a]=$.BigInt(a))}function
-ux(a,b){return a<<uv(b)}function
-uy(a,b){return a>>uv(b)}function
+aT(a){return Z.BigInt(a)}var
+uA=[];function
+uw(a){return uA[a]||(uA[a]=Z.BigInt(a))}function
+uy(a,b){return a<<uw(b)}function
+uz(a,b){return a>>uw(b)}function
 a1(a){return a<0?-1:a>0?1:0}function
-Mn(a){if(a<0)throw new($.Error)("a root of a negative number");if(a<2)return a;var
-d=$.BigInt(1),b=d<<$.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
+Mo(a){if(a<0)throw new(Z.Error)("a root of a negative number");if(a<2)return a;var
+d=Z.BigInt(1),b=d<<Z.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
 aX(a,b){return a-b}function
 je(b){var
-a=$.Number(b);if(a!==(a|0))throw new($.Error)("a number of more than 32 bits");return a}function
-L1(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-LR(b){var
-a=ai;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&L1(b[1]))var
+a=Z.Number(b);if(a!==(a|0))throw new(Z.Error)("a number of more than 32 bits");return a}function
+L2(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+LS(b){var
+a=ai;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&L2(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=sX;for(var
+f=2,e=b;a+=sY;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
@@ -690,46 +695,46 @@ instanceof
 cJ)a+=a0+c.toString()+a0;else
 if(typeof
 c=="string")a+=a0+c.toString()+a0;else
-a+="_"}a+=lZ}else
+a+="_"}a+=l0}else
 if(b[0]==bd)a+=b[1];return a}function
-ud(a){if(a
+ue(a){if(a
 instanceof
 Array&&(a[0]==0||a[0]==bd)){var
 c=eA("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=LR(a),b=eA(sf);if(b)b(0);$.console.error("Fatal error: exception "+d+"\n")}}else
+d=LS(a),b=eA(sg);if(b)b(0);Z.console.error("Fatal error: exception "+d+lS)}}else
 throw a}function
-Me(){var
-a=$;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){ud(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)ud(a.error)})}Me();function
+Mf(){var
+a=Z;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){ue(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)ue(a.error)})}Mf();function
 h(a,b){return a.length==1?a(b):dg(a,[b])}function
 au(a,b,c){return a.length==2?a(b,c):dg(a,[b,c])}function
 fm(a,b,c,d){return a.length==3?a(b,c,d):dg(a,[b,c,d])}function
 gE(a,b,c,d,e){return a.length==4?a(b,c,d,e):dg(a,[b,c,d,e])}function
-LD(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):dg(a,[b,c,d,e,f])}LS();var
-mn=[bd,b(sN),-2],mm=[bd,b(t0),-4],KK=[0,[0,[0,[0,0]]]],KL=[0,0],KM=[0,0],KN=[0,[0,0]],KO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KN]]]]]]]]]]],ix=[0,[1,0],0],rt=[0,[2,0],0],ln=[0,[1,0],0],rs=[0,[2,0],0],iv=[0,[1,0],0],lm=[0,[2,0],0],KP=[0,[0,[0,[0,0]]]],KQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KP]]]]]]]]]]],KR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KQ]]]]]]]]]]],KS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KR]]]]]]]]]]],KT=[0,[0,0]],KU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KT]]]]]]]]]]],KV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KU]]]]]]]]]]],KW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KV]]]]]]]]]]],KX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KW]]]]]]]]]]],KY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],KZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KY]]]]]]]]]]],K0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KZ]]]]]]]]]]],K1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K0]]]]]]]]]]],K2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K1]]]]]]]]]]],K3=[0,[0,0]],K4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K3]]]]]]]]]]],K5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K4]]]]]]]]]]],K6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K5]]]]]]]]]]],K7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K6]]]]]]]]]]],K8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K7]]]]]]]]]]],K9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K8]]]]]]]]]]],K_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K9]]]]]]]]]]],K$=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],La=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K$]]]]]]]]]]],Lb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,La]]]]]]]]]]],Lc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lb]]]]]]]]]]],Ld=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lc]]]]]]]]]]],Le=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ld]]]]]]]]]]],Lf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Le]]]]]]]]]]],Lg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lf]]]]]]]]]]],Lh=[0,0],Li=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lh]]]]]]]]]]],Lj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Li]]]]]]]]]]],Lk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lj]]]]]]]]]]],Ll=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lk]]]]]]]]]]],Lm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ll]]]]]]]]]]],Ln=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lm]]]]]]]]]]],Lo=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ln]]]]]]]]]]],Lp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lo]]]]]]]]]]],Lq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lp]]]]]]]]]]],Lr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lq]]]]]]]]]]],Ls=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Lt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ls]]]]]]]]]]],Lu=[0,0],Lv=[0,[0,0]],Lw=[0,0],Lx=[0,[0,[0,[0,[0,0]]]]],dX=[0,[0,[0,0]]],dZ=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],nT=[0,0],ij=[0,[0,[0,[0,0]]]],Ly=[0,[0,[0,[0,[0,0]]]]],Lz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ly]]]]]]]]]]],LA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lz]]]]]]]]]]],LB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,LA]]]]]]]]]]],LC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,LB]]]]]]]]]]];b5(11,[bd,b(sd),-12],sd);b5(10,[bd,b(s3),-11],s3);b5(9,[bd,b(tP),-10],tP);b5(8,[bd,b(sq),-9],sq);b5(7,[bd,b(tf),-8],tf);b5(6,[bd,b(so),-7],so);b5(5,[bd,b(sO),-6],sO);b5(4,[bd,b(sS),-5],sS);b5(3,mm,t0);b5(2,[bd,b(lS),-3],lS);b5(1,mn,sN);b5(0,[bd,b(ty),-1],ty);var
-uB=b("String.sub / Bytes.sub"),uD=b(ai),uC=b("String.concat"),uE=b("Array.init"),uF=b("power"),u$=[0,0],va=[0,0],vg=[0,0,0],vh=[0,0,0],vi=[0,0],vB=[0,0],vH=[0,0],vL=[0,0],vM=[0,0],vP=[0,0],vQ=[0,0],vY=[0,0],wf=[0,0],wi=[0,0],wm=[0,0],wn=[0,0],wo=[0,0],wp=[0,0],wD=[0,0],wE=[0,0],w7=[0,0],xv=[0,[0,[0,0]]],x9=[0,0],yA=[0,0],yY=[0,0],za=b(","),zs=[0,b(lZ),0],zt=b(sX),zu=b("."),zv=[0,[0,[0,0]]],zw=b(fv),zx=b(l0),zy=[0,[0,[0,[0,[0,0]]]]],zz=[0,b(lZ),0],zA=b(tY),CD=b(sa),CF=b(r9),CE=b(s6),CG=b(fq),CH=b(fo),CI=b(i6),CJ=b(tI),CK=b(sH),CL=b(i0),CM=b(s$),CN=b(sG),CO=b(tM),D5=[0,[0,[0,0,0],0]],Ek=[0,0],D6=b(gF),D7=[0,0],D8=b(lY),D9=[0,1],D_=b("mirror"),D$=[0,3],Ea=b("negative"),Eb=[0,2],Ec=b(gK),Ed=[0,5],Ee=b(l6),Ef=[0,4],Eg=b(dN),Eh=b(iQ),Ei=b(fr),Ej=b(b3),El=[0,0],Em=[0,0],En=[0,0],Eq=[0,[0,[0,0]]],Er=[0,[0,[0,0]]],ES=[0,[0,[0,0]]],E6=[0,0],Fp=b(ai),Fh=[0,0],Fj=[0,0],Fi=[0,0],Fk=[0,[0,[0,[0,0]]]],Fl=[0,[0,[0,0]]],Fm=[0,[0,[0,[0,0]]]],Fn=[0,[0,[0,0]]],Ff=[0,[0,[0,0]]],Fe=b(fr),Fd=[0,0],Fb=[0,1,0],Fc=[0,[0,[0,0]]],Fa=[0,0],E$=[0,0],E_=[0,0],E7=[0,[0,0]],E8=[0,[0,[0,0]]],E4=[0,[0,0]],E5=[0,[0,[0,0]]],E3=[0,0],EZ=[0,[0,[0,0]]],EY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KK]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],ET=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],EU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],EV=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],EW=[0,[0,[0,[0,0]]],[0,0,0]],EQ=[0,0],ER=[0,[0,0]],EP=[0,0,0],EO=[0,[0,[0,0]]],EI=[0,[0,0]],EJ=[0,[0,[0,0]]],EK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KL]]]]]]]]]]],EL=[0,[0,0]],EM=[0,[0,[0,0]]],EH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KM]]]]]]]]]]],EF=[0,[0,0]],EG=[0,[0,[0,0]]],ED=[0,[0,[0,0]]],EE=[0,[0,0]],EC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KO]]]]]]]]]]],EB=[0,0],EA=[0,0],Ex=[0,[0,0]],Ey=[0,0],Ev=[0,0],Ew=[0,1],Et=[0,[0,0]],Eu=[0,0],Es=[0,0],Eo=[0,0],Ep=[0,1],DZ=[0,[0,0,0]],D0=[0,[0,1,0]],D1=[0,[0,2,0]],D2=[0,[0,0,1]],D3=[0,[0,1,1]],D4=[0,[0,2,1]],DV=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],DT=[0,[0,0],0],DU=[0,[1,0],0],DW=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],DR=[0,[0,0]],DS=[0,0],DQ=[0,0],DP=[0,0],DO=[0,0],DN=[0,0],DM=[0,0,0],DK=[0,[0,0]],DL=[0,0],DJ=[0,0,0],DH=[0,[0,[0,0]]],DI=[0,[0,[0,0]]],DG=[0,0],DE=[0,1,0],Dx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KS]]]]]]]]]]],Dy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KX]]]]]]]]]]],Dt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K2]]]]]]]]]]],Du=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K_]]]]]]]]]]],Dv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lg]]]]]]]]]]],Dw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lr]]]]]]]]]]],Dz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lt]]]]]]]]]]],DA=b("sqrt"),Di=[0,b("\n"),0],Dj=b(r_),Dk=b(iP),Dl=b(s2),Dm=b(sL),Ds=b(gN),Dn=b(gJ),Do=b("verdict"),Dp=b(tz),Dq=b(sD),Dr=b(s1),Df=b(sV),Dg=b(tD),Dh=b(iS),Db=b(tb),Dc=b(iT),Dd=b(gJ),De=b(gN),C8=b(i2),C9=b(bG),C_=b(r$),C$=b(iY),C5=b(tx),C6=b(gK),C7=b(iY),C1=b(te),C2=b(i2),C3=b(iT),C4=b(tN),CQ=b(tE),CR=b(tH),CS=b(iX),CT=b(iV),CU=b(tT),CV=b(tt),CW=b(tw),CX=b(ti),CY=b(iX),CZ=b(tl),CB=b(iN),CC=b(gM),Cw=b(b4),Cx=b(b2),Cy=b(sF),B8=b(iV),B9=b(th),BM=b(bG),BN=b(cm),BO=b(i4),BP=b(fu),BQ=b(cH),BV=b(lL),BR=b(l1),BS=b(l3),BT=b(fp),BU=b(bG),BW=b(cm),BX=b(i4),BY=b(fu),BZ=b(l1),B0=b(l3),B1=b(fp),B2=b(bG),B3=b(cm),B4=b(b4),B5=b(b2),B6=b(ex),B7=b(fu),B_=b(tr),B$=b(tG),Ca=b(i5),Cb=b(st),Cc=b(sy),Cd=b(fp),Ce=b(bG),Cf=b(cm),Cg=b(iL),Ch=b(sJ),Ci=b(fu),Cj=b(gS),Ck=b(si),Cl=b(fp),Cm=b(bG),Cn=b(iL),Co=b(bG),Cp=b(tk),Cs=b(r8),Cq=b(sw),Cr=b(tL),Ct=b(gN),Cu=b(gJ),Cv=b(bG),Cz=b(i5),CA=b(iS),BH=b(cm),BI=b(fu),BJ=b(lL),BK=b(fp),BG=b(tV),Bu=b(gS),Bv=b(tA),Bw=b(ey),Bx=b(fs),By=b(fs),Bz=b(lO),BA=b(ey),BB=b(s4),BC=b(sE),BD=b(bw),BF=b(sc),BE=b(lO),Bk=b(sU),Bl=b(tZ),Bm=b(sA),Bn=b(sx),Bo=b(tK),Bp=b(tv),Bq=b(sM),Br=b(iM),Bs=b(iM),Bg=b(bw),Bh=b(b1),Bi=b(fw),Bj=b(bF),Bc=b(cH),Bd=b(lV),Be=b(tc),A$=b(b4),Ba=b(b2),Bb=b(ex),A4=b(b4),A5=b(b2),A6=b(ex),A7=b(lX),A8=b(ey),A9=b(lT),A_=b(tq),AM=b(sv),AS=b(iP),AR=b(l5),AN=b(lP),AO=b(gH),AT=b(gI),AV=b(gI),AW=b(to),AX=b(lP),AU=b(gH),AY=b(ss),AZ=b(tn),A0=b(gH),A1=b(tU),A2=b(l5),A3=b(gH),AP=b(fs),AQ=b(s9),AJ=b(iW),AK=b(iW),AL=b(iW),AF=b(ts),AG=b(b2),AH=b(b4),AI=b(tJ),Ao=b(sm),Ap=b(sb),Aq=b(tg),Ar=b(fq),As=b(tW),At=b(tj),Au=b(sn),Av=b(s_),Aw=b(sl),Ax=b(sI),Ay=b(sk),Az=b(tu),AA=b(fo),AB=b(sh),AC=b(tC),AD=b(sz),AE=b(tX),z1=b(iZ),z3=b(fv),z2=b(gG),z4=b(fn),z5=b(bw),z6=b(b1),z7=b(b3),z8=b(gO),z9=b(bF),z_=b(gQ),z$=b(bw),Aa=b(b1),Ab=b(fw),Ac=b(bF),Ad=b(b3),Ae=b(cH),Af=b(bF),Ag=b(fn),Ah=b(gR),Ai=b(bw),Aj=b(b1),Ak=b(s8),Al=b(gI),Am=b(gR),An=b(bF),zJ=b(iZ),zR=b(fv),zK=b(gG),zL=b(fn),zM=b(bw),zN=b(b1),zO=b(b3),zP=b(gO),zQ=b(bF),zS=b(gQ),zT=b(bw),zU=b(b1),zV=b(fw),zW=b(bF),zX=b(b3),zY=b(cH),zZ=b(bF),zG=b(b4),zH=b(b2),zE=[0,b(a0),0],zF=b(a0),zC=b(ai),zB=[0,b(a0),0],zD=b(a0),zo=b(iZ),zp=b(fv),zq=b("*"),zr=b(cn),zj=[0,[0,[0,[0,[0,0]]]]],zk=[0,[0,[0,0]]],zl=[0,[0,0]],zm=[0,0],zn=[0,[0,[0,[0,0]]]],zh=b('":'),zi=b(a0),zf=[0,b(a0),0],zg=b(a0),zd=[0,b("}"),0],ze=b("{"),zb=[0,b("]"),0],zc=b("["),y$=[0,[0,[0,0]]],y_=[0,[0,[0,0]]],y8=[0,0],y5=[0,[0,[0,0]]],y6=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],y7=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],y3=[0,[0,0]],y4=[0,[0,[0,0]]],y0=[0,0],y1=[0,[0,0]],y2=[0,0],yZ=[0,0],yW=[0,0],yX=[0,[0,0]],yT=[0,0],yU=[0,[0,0]],yV=[0,0],yO=[0,[0,0]],yP=[0,0],yQ=[0,[0,[0,0]]],yR=[0,[0,[0,0]]],yN=[0,[0,[0,0]]],yM=[0,[0,[0,0]]],yL=[0,0],yI=[0,[0,[0,0]]],yK=[0,[0,[0,0]]],yJ=[0,0],yG=[0,[0,0]],yH=[0,0],yE=[0,[0,0]],yF=[0,0],yD=[0,[0,[0,0]]],yB=[0,[0,0]],yC=[0,0],yy=[0,0],yz=[0,[0,0]],ys=[0,[0,0]],yt=[0,[0,[0,[0,[0,0]]]]],yu=[0,[0,[0,[0,0]]]],yv=[0,[0,[0,0]]],yw=[0,[0,0]],yx=[0,0],yp=[0,0],yq=[0,[0,0]],yr=[0,0],yo=[0,0],yk=[0,0],yl=[0,[0,[0,[0,[0,[0,0]]]]]],ym=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lu]]]]]]]]]]],yi=[0,0,0],yj=[0,0,0],yf=[0,0,0],yg=[0,0],yb=[0,0,0],yc=[0,0,0],yd=[0,0,0],x_=[0,[0,0]],x$=[0,[0,[0,0]]],ya=[0,0],x5=[0,0],x6=[0,[0,0]],x7=[0,0],x8=[0,[0,0]],x2=[0,0],x3=[0,[0,0]],x4=[0,0],x0=[0,0,0],x1=[0,0,[0,1,0]],xW=[0,0,0],xX=[0,0,0],xY=[0,0,0],xZ=[0,0,0],xT=[0,[0,[0,[0,[0,[0,0]]]]]],xU=[0,[0,[0,0]]],xV=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],xM=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],xN=[0,[0,[0,0]]],xO=[0,[0,[0,[0,[0,[0,0]]]]]],xP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lv]]]]]]]]]]],xQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lw]]]]]]]]]]],xR=[0,[0,[0,0]]],xS=[0,[0,[0,[0,[0,[0,0]]]]]],xI=[0,0,0],xJ=[0,0,0],xE=[0,0,0],xF=[0,0,0],xG=[0,0,0],xH=[0,0,0],xD=[0,0],xC=[0,0],xB=[0,0],xz=[0,0],xA=[0,0],xy=[0,0],xw=[0,0],xx=[0,0],xo=[0,0],xp=[0,0],xq=[0,0],xr=[0,[0,[0,0]]],xn=[0,0],xh=[0,0],xi=[0,0],xj=[0,[0,0]],xf=[0,[0,0]],xg=[0,[0,[0,0]]],xd=[0,[0,[0,0]]],xe=[0,[0,0]],xb=[0,[0,0]],xc=[0,[0,[0,0]]],xa=[0,0],w_=[0,0],w$=[0,0],w8=[0,0,0],w5=[0,[0,0]],w6=[0,0],wX=[0,[0,0]],wY=[0,0],wZ=[0,[0,0]],w0=[0,0],w1=[0,[0,0]],w2=[0,0],w3=[0,[0,0]],w4=[0,0],wV=[0,[0,0]],wW=[0,0],wT=[0,[0,0]],wU=[0,0],wP=[0,[0,0]],wQ=[0,0],wR=[0,0],wS=[0,[0,0]],wG=[0,[0,0]],wH=[0,0],wI=[0,[0,0]],wJ=[0,0],wK=[0,0],wL=[0,[0,0]],wM=[0,[0,0]],wN=[0,[0,0]],wO=[0,0],wC=[0,0],wB=[0,0],wy=[0,0],wz=[0,[0,0]],wx=[0,[0,[0,0]]],ww=[0,[0,[0,[0,[0,[0,0]]]]]],wu=[0,[0,0]],wv=[0,0],wt=[0,[0,0]],ws=[0,0],wq=[0,0],wr=[0,[0,[0,0]]],wk=[0,[0,0]],wl=[0,[0,[0,0]]],wj=[0,[0,[0,0]]],wg=[0,[0,[0,0]]],we=[0,[0,[0,0]]],wc=[0,[0,[0,[0,[0,[0,0]]]]]],wd=[0,[0,[0,[0,[0,[0,0]]]]]],v9=[0,[0,0]],v_=[0,0],v$=[0,[0,0]],wa=[0,[0,[0,0]]],wb=[0,[0,[0,0]]],v2=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],v3=[0,[0,[0,[0,[0,[0,0]]]]]],v4=[0,[0,[0,[0,[0,[0,0]]]]]],v5=[0,[0,[0,0]]],v6=[0,[0,[0,[0,[0,[0,0]]]]]],v7=[0,[0,[0,0]]],v8=[0,[0,[0,0]]],v0=[0,[0,0]],v1=[0,0],vV=[0,0,0],vW=[0,[0,0,0],0],vX=[0,0,0],vT=[0,0,0],vU=[0,[0,0,0],0],vS=[0,0,0],vR=[0,[0,[0,0]]],vO=[0,0,0],vN=[0,0],vJ=[0,0],vK=[0,[0,0]],vC=[0,0],vD=[0,0],vE=[0,0],vF=[0,0],vz=[0,0],vA=[0,0],vx=[0,0,0],vu=[0,[0,[0,0]]],vv=[0,[0,[0,0]]],vw=[0,[0,[0,0]]],vt=[0,[0,[0,[0,0]]]],vp=[0,[0,[0,0]]],vq=[0,[0,[0,0]]],vr=[0,[0,[0,0]]],vs=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],vn=[0,[0,0]],vo=[0,0],vl=[0,[0,0]],vm=[0,0],vj=[0,[0,0]],vk=[0,0],u8=[0,0],u9=[0,[0,0]],u6=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],u7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lx]]]]]]]]]]],u4=[0,0,0],u2=[0,[0,[0,[0,[0,0]]]]],uS=[0,0],uT=[0,[0,0]],uU=[0,[0,[0,0]]],uV=[0,[0,[0,[0,0]]]],uW=[0,[0,[0,[0,[0,0]]]]],uX=[0,[0,[0,[0,[0,[0,0]]]]]],uY=[0,[0,[0,[0,[0,[0,[0,0]]]]]]],uZ=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],u0=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],u1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],uQ=b(tR),uP=b(ai),uO=[0,[0,0]],uM=[0,0],uJ=[0,0],uL=[1,0],uK=[0,0],uI=[0,0],uG=[1,0],uH=[1,0],vI=[0,[0,[0,[0,[0,[0,0]]]]]],wA=[10,0,0,0,0],E9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,LC]]]]]]]]]]],IF=b(b4),IG=b(b2),IH=b(sF),Ix=b(gQ),Iy=[0,b("a base axis of such a platform"),0],Iz=b(bw),IA=b(b1),Ik=b(tv),Il=b(sU),Im=b(tK),In=b(iM),Io=b(sM),Ip=b(iM),Iq=b(tZ),Ir=b(sA),Is=b(sx),H_=b(th),H$=b(iV),HM=[0,b("such a machine with bodies"),0],Hz=b(iS),HA=b(bG),HB=b(tk),HC=b(tL),HF=b(sw),HG=b(r8),HH=b(bG),HI=b(bG),HK=b(iL),HJ=[0,b("a claim that no cube of such a machine fits"),0],HL=b(tV),HN=b(fp),HO=b(fu),HP=b(cH),HQ=b(lV),HR=b(tc),HS=b(i4),HT=b(sy),HU=b(si),HV=b(lL),HY=b(ex),HZ=b(tq),H2=b(cm),H3=b(cm),H4=b(sJ),H5=b(cm),H6=[0,b("the closed design with other bounds on psi than one from below and one from above"),0],H7=b(iL),H8=b(gS),H9=b(ex),Ia=b(tG),Ib=b(tr),Ic=[0,b(" operations, with its definitions written out,"),0],Id=b("a mechanism of more than "),Ie=b(cm),If=b(b4),Ig=b(b2),Ih=b(i5),Ii=b(st),HW=[0,b(a0),0],HX=b('the mechanism "'),Ij=b(l1),It=b(i4),Iu=b(cH),Iv=b(lV),Iw=b(l3),IB=b(cm),IE=b(cH),IC=[0,b("a platform that turns on struts and other drives"),0],ID=b(cm),H0=[0,b(a0),0],H1=b('the workspace "'),II=b(bG),IJ=b(bG),IL=b(gN),IM=b(gJ),IN=b(i5),IK=[0,b("an atlas of such a machine"),0],HD=[0,b(a0),0],HE=b('a claim of the kind "'),I2=b(i6),I3=b(dN),I4=b(iQ),I5=b(fr),I6=b(i0),I7=b(lY),I8=b(gF),I9=b(i6),I_=b(iQ),I$=b(i0),Ja=b(lY),Jb=[0,b('this evidence "fan"'),0],IS=b(dN),Jm=b(gM),Jn=[0,1,1],IT=b(s$),Jd=b(fo),Je=b(sG),Jf=b(fq),Jg=b(sH),Jh=b(s6),Ji=b(b3),Jj=b(gM),Jk=b(iN),Jl=b(b3),IU=b(i6),IV=b(dN),IW=b(iQ),IX=b(fr),IY=b(tM),IZ=b(i0),Jc=[0,b('evidence "fan" about "divided" and other rows'),0],I0=[0,b(a0),0],I1=b('the evidence "'),Jo=b(fo),Jp=b(fq),Jq=b(dN),Jr=b(fr),Js=b(tI),Ju=b(fo),Jv=b(fq),Jw=b(dN),Jx=b(fr),Jy=b(gK),Jz=b(gF),JA=b(gK),JB=b(gF),Jt=[0,b("this evidence at control points"),0],KD=b('"orthocert-paving/'),Ku=b(dN),Kv=b(dN),Kh=b(s1),Ki=b(sD),Kj=b(tz),KB=[0,3,3],Kk=b(sL),Ks=[0,b("this set of orientations with such drives"),0],Kt=[0,b(se),0],Kw=[0,b('this evidence "tolerances" of a platform that turns'),0],Kx=[0,b("a step of a platform that turns that is not at control points"),0],Ky=[0,b("this quantity in a claim that is refuted"),0],Kz=[0,b("a step in a proof that no cube fits"),0],KA=[0,b('the failure "same" of such a mechanism'),0],Kl=[0,b(se),0],Kq=[0,b("a stiffness for each joint in such a claim"),0],Kr=[0,b(tm),0],Kp=[0,b(tm),0],Km=b(s2),Kn=b(r_),Ko=b(iP),Kd=b(l6),Ke=b(gF),Kf=b(b3),J7=b(iS),J8=b(sV),J9=b(tD),J_=[0,b(a0),0],J$=b('a proof of the kind "'),J3=b(gJ),J4=b(gN),J5=b(iT),J6=b(tb),JZ=b(bG),J0=b(i2),J1=b(r$),J2=b(iY),JW=b(tx),JX=b(gK),JY=b(iY),JS=b(te),JT=b(i2),JU=b(iT),JV=b(tN),JE=b(tH),JF=b(iX),JG=b(tE),JH=b(iV),JI=b(tl),JJ=b(tT),JM=b(tt),JN=b(iN),JO=b(gM),JP=b(tw),JQ=b(ti),JR=b(iX),JK=[0,b(a0),0],JL=b('the failure "'),JC=b(l6),JD=b(tR),IQ=b(gM),IR=b(iN),IO=b(r9),IP=b(sa),Hw=b(gS),Hm=b(lO),Hn=b(sc),Ho=b(fs),Hp=b(bw),Hu=b(tA),Hv=b(gS),Hx=b(ey),Hy=b(fs),Hq=b(ey),Hr=b(s4),Hs=b(sE),Ht=b(bw),Hf=b(ex),Hj=b(b4),Hk=b(b2),Hg=b(lT),Hh=b(lX),Hi=b(ey),G$=b(ex),Hd=b(b4),He=b(b2),Ha=b(lT),Hb=b(lX),Hc=b(ey),G_=[0,1],G9=[0,1],G7=[0,1],G5=[0,1],G4=[0,1],G2=[0,1],G3=[0,b("this quantity of such a mechanism"),0],GL=b(lP),GM=b(tn),GN=b(ss),GO=b(l5),GP=b(tU),GR=b(to),GQ=b(gI),GK=b(iP),GC=b(iW),Gq=b(s9),Gr=b(tg),GU=b(fo),GV=b(tC),GW=b(sI),GX=b(fq),GY=b(s_),GZ=b(sk),G0=b(sl),G1=b(sb),Gs=b(sh),Gt=b(tX),Gu=b(tu),Gv=b(tj),Gw=b(sz),Gx=b(tW),Gy=b(sn),Gz=b(sm),GA=[0,b(a0),0],GB=b('the quantity "'),GD=b(sv),GE=b(ts),GF=b(b4),GG=b(b2),GH=b(tJ),GI=[0,b(a0),0],GJ=b('a bound "'),GS=b(gH),GT=b(fs),Go=b(bF),Gp=b(fw),Gm=b(bF),Gn=b(cH),Gj=b(bF),Gk=b(gO),FX=b(bF),FY=b(gQ),FZ=b(gR),F0=b(cH),F1=b(gO),F2=b(fw),F5=b(bw),F6=b(b1),F7=b(gG),F8=b(fn),F9=b(bw),F_=b(b1),F$=b(b3),Ga=b(b3),Gb=b(gG),Gc=b(fn),Gd=b(gR),Ge=b(bw),Gf=b(b1),Gg=b(s8),Gh=b(gI),F3=[0,b('" of such a machine'),0],F4=b(sr),FV=b(bF),FW=b(gR),FF=b(bF),FG=b(cH),FH=b(gO),FI=b(fw),FL=b(gQ),FM=b(bw),FN=b(b1),FO=b(gG),FP=b(fn),FQ=b(bw),FR=b(b1),FS=b(b3),FT=b(b3),FJ=[0,b(a0),0],FK=b(sr),FC=b(iZ),FD=b(fv),FA=b(" is not covered by the verified checker"),FB=b(ai),Fy=b(b4),Fz=b(b2),Fu=b(ai),Fv=b(tY),Fw=b(ai),Fx=b(ai),Ft=[1,0],Fs=b(fv),Fq=b("Reader.Malformed"),Fr=b("Reader.Not_covered"),KF=[0,b("a paving is checked by orthocert-verified")],KE=b(ta),KG=b("CERTIFIED"),KH=b("REFUTED"),KI=b(ta),KJ=b("NOT COVERED: ");function
-gY(a){throw[0,mm,a]}function
-mo(b,a){return L3(b,a)?b:a}function
+LE(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):dg(a,[b,c,d,e,f])}LT();var
+mo=[bd,b(sO),-2],mn=[bd,b(t1),-4],KL=[0,[0,[0,[0,0]]]],KM=[0,0],KN=[0,0],KO=[0,[0,0]],KP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KO]]]]]]]]]]],ix=[0,[1,0],0],ru=[0,[2,0],0],ln=[0,[1,0],0],rt=[0,[2,0],0],iv=[0,[1,0],0],lm=[0,[2,0],0],KQ=[0,[0,[0,[0,0]]]],KR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KQ]]]]]]]]]]],KS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KR]]]]]]]]]]],KT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KS]]]]]]]]]]],KU=[0,[0,0]],KV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KU]]]]]]]]]]],KW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KV]]]]]]]]]]],KX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KW]]]]]]]]]]],KY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KX]]]]]]]]]]],KZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],K0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KZ]]]]]]]]]]],K1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K0]]]]]]]]]]],K2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K1]]]]]]]]]]],K3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K2]]]]]]]]]]],K4=[0,[0,0]],K5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K4]]]]]]]]]]],K6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K5]]]]]]]]]]],K7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K6]]]]]]]]]]],K8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K7]]]]]]]]]]],K9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K8]]]]]]]]]]],K_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K9]]]]]]]]]]],K$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K_]]]]]]]]]]],La=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Lb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,La]]]]]]]]]]],Lc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lb]]]]]]]]]]],Ld=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lc]]]]]]]]]]],Le=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ld]]]]]]]]]]],Lf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Le]]]]]]]]]]],Lg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lf]]]]]]]]]]],Lh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lg]]]]]]]]]]],Li=[0,0],Lj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Li]]]]]]]]]]],Lk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lj]]]]]]]]]]],Ll=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lk]]]]]]]]]]],Lm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ll]]]]]]]]]]],Ln=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lm]]]]]]]]]]],Lo=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ln]]]]]]]]]]],Lp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lo]]]]]]]]]]],Lq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lp]]]]]]]]]]],Lr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lq]]]]]]]]]]],Ls=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lr]]]]]]]]]]],Lt=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Lu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lt]]]]]]]]]]],Lv=[0,0],Lw=[0,[0,0]],Lx=[0,0],Ly=[0,[0,[0,[0,[0,0]]]]],dX=[0,[0,[0,0]]],dZ=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],nU=[0,0],ij=[0,[0,[0,[0,0]]]],Lz=[0,[0,[0,[0,[0,0]]]]],LA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lz]]]]]]]]]]],LB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,LA]]]]]]]]]]],LC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,LB]]]]]]]]]]],LD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,LC]]]]]]]]]]];b5(11,[bd,b(se),-12],se);b5(10,[bd,b(s4),-11],s4);b5(9,[bd,b(tQ),-10],tQ);b5(8,[bd,b(sr),-9],sr);b5(7,[bd,b(tg),-8],tg);b5(6,[bd,b(sp),-7],sp);b5(5,[bd,b(sP),-6],sP);b5(4,[bd,b(sT),-5],sT);b5(3,mn,t1);b5(2,[bd,b(lT),-3],lT);b5(1,mo,sO);b5(0,[bd,b(tz),-1],tz);var
+uC=b("String.sub / Bytes.sub"),uE=b(ai),uD=b("String.concat"),uF=b("Array.init"),uG=b("power"),va=[0,0],vb=[0,0],vh=[0,0,0],vi=[0,0,0],vj=[0,0],vC=[0,0],vI=[0,0],vM=[0,0],vN=[0,0],vQ=[0,0],vR=[0,0],vZ=[0,0],wg=[0,0],wj=[0,0],wn=[0,0],wo=[0,0],wp=[0,0],wq=[0,0],wE=[0,0],wF=[0,0],w8=[0,0],xw=[0,[0,[0,0]]],x_=[0,0],yB=[0,0],yZ=[0,0],zb=b(","),zt=[0,b(l0),0],zu=b(sY),zv=b("."),zw=[0,[0,[0,0]]],zx=b(fv),zy=b(l1),zz=[0,[0,[0,[0,[0,0]]]]],zA=[0,b(l0),0],zB=b(tZ),CE=b(sb),CG=b(r_),CF=b(s7),CH=b(fq),CI=b(fo),CJ=b(i6),CK=b(tJ),CL=b(sI),CM=b(i0),CN=b(ta),CO=b(sH),CP=b(tN),D6=[0,[0,[0,0,0],0]],El=[0,0],D7=b(gF),D8=[0,0],D9=b(lZ),D_=[0,1],D$=b("mirror"),Ea=[0,3],Eb=b("negative"),Ec=[0,2],Ed=b(gK),Ee=[0,5],Ef=b(l7),Eg=[0,4],Eh=b(dN),Ei=b(iQ),Ej=b(fr),Ek=b(b3),Em=[0,0],En=[0,0],Eo=[0,0],Er=[0,[0,[0,0]]],Es=[0,[0,[0,0]]],ET=[0,[0,[0,0]]],E7=[0,0],Fq=b(ai),Fi=[0,0],Fk=[0,0],Fj=[0,0],Fl=[0,[0,[0,[0,0]]]],Fm=[0,[0,[0,0]]],Fn=[0,[0,[0,[0,0]]]],Fo=[0,[0,[0,0]]],Fg=[0,[0,[0,0]]],Ff=b(fr),Fe=[0,0],Fc=[0,1,0],Fd=[0,[0,[0,0]]],Fb=[0,0],Fa=[0,0],E$=[0,0],E8=[0,[0,0]],E9=[0,[0,[0,0]]],E5=[0,[0,0]],E6=[0,[0,[0,0]]],E4=[0,0],E0=[0,[0,[0,0]]],EZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KL]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],EU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],EV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],EW=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],EX=[0,[0,[0,[0,0]]],[0,0,0]],ER=[0,0],ES=[0,[0,0]],EQ=[0,0,0],EP=[0,[0,[0,0]]],EJ=[0,[0,0]],EK=[0,[0,[0,0]]],EL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KM]]]]]]]]]]],EM=[0,[0,0]],EN=[0,[0,[0,0]]],EI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KN]]]]]]]]]]],EG=[0,[0,0]],EH=[0,[0,[0,0]]],EE=[0,[0,[0,0]]],EF=[0,[0,0]],ED=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KP]]]]]]]]]]],EC=[0,0],EB=[0,0],Ey=[0,[0,0]],Ez=[0,0],Ew=[0,0],Ex=[0,1],Eu=[0,[0,0]],Ev=[0,0],Et=[0,0],Ep=[0,0],Eq=[0,1],D0=[0,[0,0,0]],D1=[0,[0,1,0]],D2=[0,[0,2,0]],D3=[0,[0,0,1]],D4=[0,[0,1,1]],D5=[0,[0,2,1]],DW=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],DU=[0,[0,0],0],DV=[0,[1,0],0],DX=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],DS=[0,[0,0]],DT=[0,0],DR=[0,0],DQ=[0,0],DP=[0,0],DO=[0,0],DN=[0,0,0],DL=[0,[0,0]],DM=[0,0],DK=[0,0,0],DI=[0,[0,[0,0]]],DJ=[0,[0,[0,0]]],DH=[0,0],DF=[0,1,0],Dy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KT]]]]]]]]]]],Dz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KY]]]]]]]]]]],Du=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K3]]]]]]]]]]],Dv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,K$]]]]]]]]]]],Dw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lh]]]]]]]]]]],Dx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ls]]]]]]]]]]],DA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lu]]]]]]]]]]],DB=b("sqrt"),Dj=[0,b("\n"),0],Dk=b(r$),Dl=b(iP),Dm=b(s3),Dn=b(sM),Dt=b(gN),Do=b(gJ),Dp=b("verdict"),Dq=b(tA),Dr=b(sE),Ds=b(s2),Dg=b(sW),Dh=b(tE),Di=b(iS),Dc=b(tc),Dd=b(iT),De=b(gJ),Df=b(gN),C9=b(i2),C_=b(bG),C$=b(sa),Da=b(iY),C6=b(ty),C7=b(gK),C8=b(iY),C2=b(tf),C3=b(i2),C4=b(iT),C5=b(tO),CR=b(tF),CS=b(tI),CT=b(iX),CU=b(iV),CV=b(tU),CW=b(tu),CX=b(tx),CY=b(tj),CZ=b(iX),C0=b(tm),CC=b(iN),CD=b(gM),Cx=b(b4),Cy=b(b2),Cz=b(sG),B9=b(iV),B_=b(ti),BN=b(bG),BO=b(cm),BP=b(i4),BQ=b(fu),BR=b(cH),BW=b(lL),BS=b(l2),BT=b(l4),BU=b(fp),BV=b(bG),BX=b(cm),BY=b(i4),BZ=b(fu),B0=b(l2),B1=b(l4),B2=b(fp),B3=b(bG),B4=b(cm),B5=b(b4),B6=b(b2),B7=b(ex),B8=b(fu),B$=b(ts),Ca=b(tH),Cb=b(i5),Cc=b(su),Cd=b(sz),Ce=b(fp),Cf=b(bG),Cg=b(cm),Ch=b(iL),Ci=b(sK),Cj=b(fu),Ck=b(gS),Cl=b(sj),Cm=b(fp),Cn=b(bG),Co=b(iL),Cp=b(bG),Cq=b(tl),Ct=b(r9),Cr=b(sx),Cs=b(tM),Cu=b(gN),Cv=b(gJ),Cw=b(bG),CA=b(i5),CB=b(iS),BI=b(cm),BJ=b(fu),BK=b(lL),BL=b(fp),BH=b(tW),Bv=b(gS),Bw=b(tB),Bx=b(ey),By=b(fs),Bz=b(fs),BA=b(lO),BB=b(ey),BC=b(s5),BD=b(sF),BE=b(bw),BG=b(sd),BF=b(lO),Bl=b(sV),Bm=b(t0),Bn=b(sB),Bo=b(sy),Bp=b(tL),Bq=b(tw),Br=b(sN),Bs=b(iM),Bt=b(iM),Bh=b(bw),Bi=b(b1),Bj=b(fw),Bk=b(bF),Bd=b(cH),Be=b(lW),Bf=b(td),Ba=b(b4),Bb=b(b2),Bc=b(ex),A5=b(b4),A6=b(b2),A7=b(ex),A8=b(lY),A9=b(ey),A_=b(lU),A$=b(tr),AN=b(sw),AT=b(iP),AS=b(l6),AO=b(lP),AP=b(gH),AU=b(gI),AW=b(gI),AX=b(tp),AY=b(lP),AV=b(gH),AZ=b(st),A0=b(to),A1=b(gH),A2=b(tV),A3=b(l6),A4=b(gH),AQ=b(fs),AR=b(s_),AK=b(iW),AL=b(iW),AM=b(iW),AG=b(tt),AH=b(b2),AI=b(b4),AJ=b(tK),Ap=b(sn),Aq=b(sc),Ar=b(th),As=b(fq),At=b(tX),Au=b(tk),Av=b(so),Aw=b(s$),Ax=b(sm),Ay=b(sJ),Az=b(sl),AA=b(tv),AB=b(fo),AC=b(si),AD=b(tD),AE=b(sA),AF=b(tY),z2=b(iZ),z4=b(fv),z3=b(gG),z5=b(fn),z6=b(bw),z7=b(b1),z8=b(b3),z9=b(gO),z_=b(bF),z$=b(gQ),Aa=b(bw),Ab=b(b1),Ac=b(fw),Ad=b(bF),Ae=b(b3),Af=b(cH),Ag=b(bF),Ah=b(fn),Ai=b(gR),Aj=b(bw),Ak=b(b1),Al=b(s9),Am=b(gI),An=b(gR),Ao=b(bF),zK=b(iZ),zS=b(fv),zL=b(gG),zM=b(fn),zN=b(bw),zO=b(b1),zP=b(b3),zQ=b(gO),zR=b(bF),zT=b(gQ),zU=b(bw),zV=b(b1),zW=b(fw),zX=b(bF),zY=b(b3),zZ=b(cH),z0=b(bF),zH=b(b4),zI=b(b2),zF=[0,b(a0),0],zG=b(a0),zD=b(ai),zC=[0,b(a0),0],zE=b(a0),zp=b(iZ),zq=b(fv),zr=b("*"),zs=b(cn),zk=[0,[0,[0,[0,[0,0]]]]],zl=[0,[0,[0,0]]],zm=[0,[0,0]],zn=[0,0],zo=[0,[0,[0,[0,0]]]],zi=b('":'),zj=b(a0),zg=[0,b(a0),0],zh=b(a0),ze=[0,b("}"),0],zf=b("{"),zc=[0,b("]"),0],zd=b("["),za=[0,[0,[0,0]]],y$=[0,[0,[0,0]]],y9=[0,0],y6=[0,[0,[0,0]]],y7=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],y8=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],y4=[0,[0,0]],y5=[0,[0,[0,0]]],y1=[0,0],y2=[0,[0,0]],y3=[0,0],y0=[0,0],yX=[0,0],yY=[0,[0,0]],yU=[0,0],yV=[0,[0,0]],yW=[0,0],yP=[0,[0,0]],yQ=[0,0],yR=[0,[0,[0,0]]],yS=[0,[0,[0,0]]],yO=[0,[0,[0,0]]],yN=[0,[0,[0,0]]],yM=[0,0],yJ=[0,[0,[0,0]]],yL=[0,[0,[0,0]]],yK=[0,0],yH=[0,[0,0]],yI=[0,0],yF=[0,[0,0]],yG=[0,0],yE=[0,[0,[0,0]]],yC=[0,[0,0]],yD=[0,0],yz=[0,0],yA=[0,[0,0]],yt=[0,[0,0]],yu=[0,[0,[0,[0,[0,0]]]]],yv=[0,[0,[0,[0,0]]]],yw=[0,[0,[0,0]]],yx=[0,[0,0]],yy=[0,0],yq=[0,0],yr=[0,[0,0]],ys=[0,0],yp=[0,0],yl=[0,0],ym=[0,[0,[0,[0,[0,[0,0]]]]]],yn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lv]]]]]]]]]]],yj=[0,0,0],yk=[0,0,0],yg=[0,0,0],yh=[0,0],yc=[0,0,0],yd=[0,0,0],ye=[0,0,0],x$=[0,[0,0]],ya=[0,[0,[0,0]]],yb=[0,0],x6=[0,0],x7=[0,[0,0]],x8=[0,0],x9=[0,[0,0]],x3=[0,0],x4=[0,[0,0]],x5=[0,0],x1=[0,0,0],x2=[0,0,[0,1,0]],xX=[0,0,0],xY=[0,0,0],xZ=[0,0,0],x0=[0,0,0],xU=[0,[0,[0,[0,[0,[0,0]]]]]],xV=[0,[0,[0,0]]],xW=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],xN=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],xO=[0,[0,[0,0]]],xP=[0,[0,[0,[0,[0,[0,0]]]]]],xQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lw]]]]]]]]]]],xR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Lx]]]]]]]]]]],xS=[0,[0,[0,0]]],xT=[0,[0,[0,[0,[0,[0,0]]]]]],xJ=[0,0,0],xK=[0,0,0],xF=[0,0,0],xG=[0,0,0],xH=[0,0,0],xI=[0,0,0],xE=[0,0],xD=[0,0],xC=[0,0],xA=[0,0],xB=[0,0],xz=[0,0],xx=[0,0],xy=[0,0],xp=[0,0],xq=[0,0],xr=[0,0],xs=[0,[0,[0,0]]],xo=[0,0],xi=[0,0],xj=[0,0],xk=[0,[0,0]],xg=[0,[0,0]],xh=[0,[0,[0,0]]],xe=[0,[0,[0,0]]],xf=[0,[0,0]],xc=[0,[0,0]],xd=[0,[0,[0,0]]],xb=[0,0],w$=[0,0],xa=[0,0],w9=[0,0,0],w6=[0,[0,0]],w7=[0,0],wY=[0,[0,0]],wZ=[0,0],w0=[0,[0,0]],w1=[0,0],w2=[0,[0,0]],w3=[0,0],w4=[0,[0,0]],w5=[0,0],wW=[0,[0,0]],wX=[0,0],wU=[0,[0,0]],wV=[0,0],wQ=[0,[0,0]],wR=[0,0],wS=[0,0],wT=[0,[0,0]],wH=[0,[0,0]],wI=[0,0],wJ=[0,[0,0]],wK=[0,0],wL=[0,0],wM=[0,[0,0]],wN=[0,[0,0]],wO=[0,[0,0]],wP=[0,0],wD=[0,0],wC=[0,0],wz=[0,0],wA=[0,[0,0]],wy=[0,[0,[0,0]]],wx=[0,[0,[0,[0,[0,[0,0]]]]]],wv=[0,[0,0]],ww=[0,0],wu=[0,[0,0]],wt=[0,0],wr=[0,0],ws=[0,[0,[0,0]]],wl=[0,[0,0]],wm=[0,[0,[0,0]]],wk=[0,[0,[0,0]]],wh=[0,[0,[0,0]]],wf=[0,[0,[0,0]]],wd=[0,[0,[0,[0,[0,[0,0]]]]]],we=[0,[0,[0,[0,[0,[0,0]]]]]],v_=[0,[0,0]],v$=[0,0],wa=[0,[0,0]],wb=[0,[0,[0,0]]],wc=[0,[0,[0,0]]],v3=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],v4=[0,[0,[0,[0,[0,[0,0]]]]]],v5=[0,[0,[0,[0,[0,[0,0]]]]]],v6=[0,[0,[0,0]]],v7=[0,[0,[0,[0,[0,[0,0]]]]]],v8=[0,[0,[0,0]]],v9=[0,[0,[0,0]]],v1=[0,[0,0]],v2=[0,0],vW=[0,0,0],vX=[0,[0,0,0],0],vY=[0,0,0],vU=[0,0,0],vV=[0,[0,0,0],0],vT=[0,0,0],vS=[0,[0,[0,0]]],vP=[0,0,0],vO=[0,0],vK=[0,0],vL=[0,[0,0]],vD=[0,0],vE=[0,0],vF=[0,0],vG=[0,0],vA=[0,0],vB=[0,0],vy=[0,0,0],vv=[0,[0,[0,0]]],vw=[0,[0,[0,0]]],vx=[0,[0,[0,0]]],vu=[0,[0,[0,[0,0]]]],vq=[0,[0,[0,0]]],vr=[0,[0,[0,0]]],vs=[0,[0,[0,0]]],vt=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],vo=[0,[0,0]],vp=[0,0],vm=[0,[0,0]],vn=[0,0],vk=[0,[0,0]],vl=[0,0],u9=[0,0],u_=[0,[0,0]],u7=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],u8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ly]]]]]]]]]]],u5=[0,0,0],u3=[0,[0,[0,[0,[0,0]]]]],uT=[0,0],uU=[0,[0,0]],uV=[0,[0,[0,0]]],uW=[0,[0,[0,[0,0]]]],uX=[0,[0,[0,[0,[0,0]]]]],uY=[0,[0,[0,[0,[0,[0,0]]]]]],uZ=[0,[0,[0,[0,[0,[0,[0,0]]]]]]],u0=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],u1=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],u2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],uR=b(tS),uQ=b(ai),uP=[0,[0,0]],uN=[0,0],uK=[0,0],uM=[1,0],uL=[0,0],uJ=[0,0],uH=[1,0],uI=[1,0],vJ=[0,[0,[0,[0,[0,[0,0]]]]]],wB=[10,0,0,0,0],E_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,LD]]]]]]]]]]],IG=b(b4),IH=b(b2),II=b(sG),Iy=b(gQ),Iz=[0,b("a base axis of such a platform"),0],IA=b(bw),IB=b(b1),Il=b(tw),Im=b(sV),In=b(tL),Io=b(iM),Ip=b(sN),Iq=b(iM),Ir=b(t0),Is=b(sB),It=b(sy),H$=b(ti),Ia=b(iV),HN=[0,b("such a machine with bodies"),0],HA=b(iS),HB=b(bG),HC=b(tl),HD=b(tM),HG=b(sx),HH=b(r9),HI=b(bG),HJ=b(bG),HL=b(iL),HK=[0,b("a claim that no cube of such a machine fits"),0],HM=b(tW),HO=b(fp),HP=b(fu),HQ=b(cH),HR=b(lW),HS=b(td),HT=b(i4),HU=b(sz),HV=b(sj),HW=b(lL),HZ=b(ex),H0=b(tr),H3=b(cm),H4=b(cm),H5=b(sK),H6=b(cm),H7=[0,b("the closed design with other bounds on psi than one from below and one from above"),0],H8=b(iL),H9=b(gS),H_=b(ex),Ib=b(tH),Ic=b(ts),Id=[0,b(" operations, with its definitions written out,"),0],Ie=b("a mechanism of more than "),If=b(cm),Ig=b(b4),Ih=b(b2),Ii=b(i5),Ij=b(su),HX=[0,b(a0),0],HY=b('the mechanism "'),Ik=b(l2),Iu=b(i4),Iv=b(cH),Iw=b(lW),Ix=b(l4),IC=b(cm),IF=b(cH),ID=[0,b("a platform that turns on struts and other drives"),0],IE=b(cm),H1=[0,b(a0),0],H2=b('the workspace "'),IJ=b(bG),IK=b(bG),IM=b(gN),IN=b(gJ),IO=b(i5),IL=[0,b("an atlas of such a machine"),0],HE=[0,b(a0),0],HF=b('a claim of the kind "'),I3=b(i6),I4=b(dN),I5=b(iQ),I6=b(fr),I7=b(i0),I8=b(lZ),I9=b(gF),I_=b(i6),I$=b(iQ),Ja=b(i0),Jb=b(lZ),Jc=[0,b('this evidence "fan"'),0],IT=b(dN),Jn=b(gM),Jo=[0,1,1],IU=b(ta),Je=b(fo),Jf=b(sH),Jg=b(fq),Jh=b(sI),Ji=b(s7),Jj=b(b3),Jk=b(gM),Jl=b(iN),Jm=b(b3),IV=b(i6),IW=b(dN),IX=b(iQ),IY=b(fr),IZ=b(tN),I0=b(i0),Jd=[0,b('evidence "fan" about "divided" and other rows'),0],I1=[0,b(a0),0],I2=b('the evidence "'),Jp=b(fo),Jq=b(fq),Jr=b(dN),Js=b(fr),Jt=b(tJ),Jv=b(fo),Jw=b(fq),Jx=b(dN),Jy=b(fr),Jz=b(gK),JA=b(gF),JB=b(gK),JC=b(gF),Ju=[0,b("this evidence at control points"),0],KE=b('"orthocert-paving/'),Kv=b(dN),Kw=b(dN),Ki=b(s2),Kj=b(sE),Kk=b(tA),KC=[0,3,3],Kl=b(sM),Kt=[0,b("this set of orientations with such drives"),0],Ku=[0,b(sf),0],Kx=[0,b('this evidence "tolerances" of a platform that turns'),0],Ky=[0,b("a step of a platform that turns that is not at control points"),0],Kz=[0,b("this quantity in a claim that is refuted"),0],KA=[0,b("a step in a proof that no cube fits"),0],KB=[0,b('the failure "same" of such a mechanism'),0],Km=[0,b(sf),0],Kr=[0,b("a stiffness for each joint in such a claim"),0],Ks=[0,b(tn),0],Kq=[0,b(tn),0],Kn=b(s3),Ko=b(r$),Kp=b(iP),Ke=b(l7),Kf=b(gF),Kg=b(b3),J8=b(iS),J9=b(sW),J_=b(tE),J$=[0,b(a0),0],Ka=b('a proof of the kind "'),J4=b(gJ),J5=b(gN),J6=b(iT),J7=b(tc),J0=b(bG),J1=b(i2),J2=b(sa),J3=b(iY),JX=b(ty),JY=b(gK),JZ=b(iY),JT=b(tf),JU=b(i2),JV=b(iT),JW=b(tO),JF=b(tI),JG=b(iX),JH=b(tF),JI=b(iV),JJ=b(tm),JK=b(tU),JN=b(tu),JO=b(iN),JP=b(gM),JQ=b(tx),JR=b(tj),JS=b(iX),JL=[0,b(a0),0],JM=b('the failure "'),JD=b(l7),JE=b(tS),IR=b(gM),IS=b(iN),IP=b(r_),IQ=b(sb),Hx=b(gS),Hn=b(lO),Ho=b(sd),Hp=b(fs),Hq=b(bw),Hv=b(tB),Hw=b(gS),Hy=b(ey),Hz=b(fs),Hr=b(ey),Hs=b(s5),Ht=b(sF),Hu=b(bw),Hg=b(ex),Hk=b(b4),Hl=b(b2),Hh=b(lU),Hi=b(lY),Hj=b(ey),Ha=b(ex),He=b(b4),Hf=b(b2),Hb=b(lU),Hc=b(lY),Hd=b(ey),G$=[0,1],G_=[0,1],G8=[0,1],G6=[0,1],G5=[0,1],G3=[0,1],G4=[0,b("this quantity of such a mechanism"),0],GM=b(lP),GN=b(to),GO=b(st),GP=b(l6),GQ=b(tV),GS=b(tp),GR=b(gI),GL=b(iP),GD=b(iW),Gr=b(s_),Gs=b(th),GV=b(fo),GW=b(tD),GX=b(sJ),GY=b(fq),GZ=b(s$),G0=b(sl),G1=b(sm),G2=b(sc),Gt=b(si),Gu=b(tY),Gv=b(tv),Gw=b(tk),Gx=b(sA),Gy=b(tX),Gz=b(so),GA=b(sn),GB=[0,b(a0),0],GC=b('the quantity "'),GE=b(sw),GF=b(tt),GG=b(b4),GH=b(b2),GI=b(tK),GJ=[0,b(a0),0],GK=b('a bound "'),GT=b(gH),GU=b(fs),Gp=b(bF),Gq=b(fw),Gn=b(bF),Go=b(cH),Gk=b(bF),Gl=b(gO),FY=b(bF),FZ=b(gQ),F0=b(gR),F1=b(cH),F2=b(gO),F3=b(fw),F6=b(bw),F7=b(b1),F8=b(gG),F9=b(fn),F_=b(bw),F$=b(b1),Ga=b(b3),Gb=b(b3),Gc=b(gG),Gd=b(fn),Ge=b(gR),Gf=b(bw),Gg=b(b1),Gh=b(s9),Gi=b(gI),F4=[0,b('" of such a machine'),0],F5=b(ss),FW=b(bF),FX=b(gR),FG=b(bF),FH=b(cH),FI=b(gO),FJ=b(fw),FM=b(gQ),FN=b(bw),FO=b(b1),FP=b(gG),FQ=b(fn),FR=b(bw),FS=b(b1),FT=b(b3),FU=b(b3),FK=[0,b(a0),0],FL=b(ss),FD=b(iZ),FE=b(fv),FB=b(" is not covered by the verified checker"),FC=b(ai),Fz=b(b4),FA=b(b2),Fv=b(ai),Fw=b(tZ),Fx=b(ai),Fy=b(ai),Fu=[1,0],Ft=b(fv),Fr=b("Reader.Malformed"),Fs=b("Reader.Not_covered"),KG=[0,b("a paving is checked by orthocert-verified")],KF=b(tb),KH=b("CERTIFIED"),KI=b("REFUTED"),KJ=b(tb),KK=b("NOT COVERED: ");function
+gY(a){throw[0,mn,a]}function
+mp(b,a){return L4(b,a)?b:a}function
 bo(d,c){var
 a=aI(d),e=aI(c),b=cL(a+e|0);fy(d,0,b,0,a);fy(c,0,b,a,e);return jc(b)}function
-mp(a,b){if(a){var
-c=a[1];return[0,c,mp(a[2],b)]}return b}L7(0);uj(1);uj(2);function
-mq(b){function
+mq(a,b){if(a){var
+c=a[1];return[0,c,mq(a[2],b)]}return b}L8(0);uk(1);uk(2);function
+mr(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{L6(d)}catch(a){a=us(a);if(a[1]!==mn)throw a;var
+c=a[2],d=a[1];try{L7(d)}catch(a){a=ut(a);if(a[1]!==mo)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(L8(0))}Md(b(sf),mq);function
+a=c;continue}return 0}}return a(L9(0))}Me(b(sg),mr);function
 cN(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-mr(d,c){var
+ms(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-jf(a){return mr(a,0)}function
-Z(b,a){if(a){var
-c=a[2],d=h(b,a[1]);return[0,d,Z(b,c)]}return 0}function
-ms(e,d,c){var
+jf(a){return ms(a,0)}function
+_(b,a){if(a){var
+c=a[2],d=h(b,a[1]);return[0,d,_(b,c)]}return 0}function
+mt(e,d,c){var
 b=d,a=c;for(;;){if(a){var
 f=a[2],b=au(e,b,a[1]),a=f;continue}return b}}function
 eE(d,c){var
@@ -740,41 +745,41 @@ aU(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=h(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
-mt(d,c){var
+mu(d,c){var
 a=c;for(;;){if(a){var
-b=a[1],e=a[2],f=b[2];if(0===LO(b[1],d))return[0,f];var
+b=a[1],e=a[2],f=b[2];if(0===LP(b[1],d))return[0,f];var
 a=e;continue}return 0}}function
 b6(b,c){var
-a=cL(b);LQ(a,0,b,c);return jc(a)}function
+a=cL(b);LR(a,0,b,c);return jc(a)}function
 eF(g,b,a){var
 d=fz(g),f=0;if(0<=b&&0<=a&&!((ja(d)-a|0)<b)){var
 c=cL(a);gT(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=gY(uB);return jc(e)}function
-mu(k,g){if(g){var
+e=gY(uC);return jc(e)}function
+mv(k,g){if(g){var
 h=aI(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(aI(i)+h|0)+c|0,m=b[2],n=c<=j?j:gY(uC),c=n,b=m;continue}var
+j=(aI(i)+h|0)+c|0,m=b[2],n=c<=j?j:gY(uD),c=n,b=m;continue}var
 l=aI(i)+c|0}else
 var
 l=c;var
 f=cL(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
 o=d[2];fy(a,0,f,e,aI(a));fy(k,0,f,e+aI(a)|0,h);var
-e=(e+aI(a)|0)+h|0,d=o;continue}fy(a,0,f,e,aI(a))}return jc(f)}}}return uD}function
+e=(e+aI(a)|0)+h|0,d=o;continue}fy(a,0,f,e,aI(a))}return jc(f)}}}return uE}function
 jg(b,c){if(0===b)return[0];if(0<=b){var
-d=L5(b,h(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+d=L6(b,h(c,0)),e=b-1|0,f=1;if(!(e<1)){var
 a=f;for(;;){d[1+a]=h(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return gY(uE)}function
+a=g;continue}break}}return d}return gY(uF)}function
 jh(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
 e=aT(0),a=aT(1);function
 s(b){return G(b,a)}function
-mv(b,a){return G(aT(b),a)}function
+mw(b,a){return G(aT(b),a)}function
 c(b,a){return E(aT(b),a)}function
-a2(b,a){return[0,mk(b,a),uw(b,a)]}function
+a2(b,a){return[0,ml(b,a),ux(b,a)]}function
 ji(b,a){return D(b,a)?b:a}function
 bx(b,a){return D(b,a)?a:b}function
 fE(a){return fE}function
@@ -787,9 +792,9 @@ f(a){var
 b=a?[0,f(a[2])]:a;return b}function
 g(a,b){if(a){var
 c=g(a[2],b);return[0,a[1],c]}return b}function
-mw(a){return typeof
-a==="number"?0:[0,mw(a[1])]}function
-mx(d,c){var
+mx(a){return typeof
+a==="number"?0:[0,mx(a[1])]}function
+my(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -812,9 +817,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-gZ(a){return mx(a,0)}function
-my(a){if(typeof
-a==="number")return uG;else
+gZ(a){return my(a,0)}function
+mz(a){if(typeof
+a==="number")return uH;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -824,9 +829,9 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,my(a[1])]}}function
+8:return[9,a[1]];default:return[0,mz(a[1])]}}function
 b8(a){if(typeof
-a==="number")return uH;else
+a==="number")return uI;else
 switch(a[0]){case
 0:return[1,b7(a[1])];case
 1:return[3,b7(a[1])];case
@@ -867,33 +872,33 @@ aA(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return 2}var
 e=a?1:a;return e}}function
-mz(c){var
+mA(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
 g1(c,b,a){return c?h(b,g1(c[1],b,a)):a}function
-mA(a){if(a)var
-b=a[1],d=b?[0,mA(b[1])]:b,c=d;else
+mB(a){if(a)var
+b=a[1],d=b?[0,mB(b[1])]:b,c=d;else
 var
 c=a;return c}function
 g2(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-mB(b){if(D(b,a))return a;var
-d=a2(b,aT(2)),f=d[1];return H(d[2],e)?s(c(2,mB(f))):s(c(2,c(2,f)))}function
-mC(c,b){return bx(a,aX(c,b))}function
+mC(b){if(D(b,a))return a;var
+d=a2(b,aT(2)),f=d[1];return H(d[2],e)?s(c(2,mC(f))):s(c(2,c(2,f)))}function
+mD(c,b){return bx(a,aX(c,b))}function
 g3(b,j,i){var
 c=j,f=i;for(;;){if(D(f,a))return h(b,c);var
 g=a2(f,aT(2)),d=g[1];if(H(g[2],e)){var
 c=g3(b,c,d),f=d;continue}return h(b,g3(b,g3(b,c,d),d))}}function
 g4(b){function
 c(a){return E(b,a)}return function(b){return g3(c,a,b)}}function
-g5(b){if(D(b,a))return uJ;var
+g5(b){if(D(b,a))return uK;var
 c=a2(b,aT(2)),d=c[1];return H(c[2],e)?[0,g5(d)]:[0,g5(d)]}function
 g6(b){if(D(b,a))return a;var
 c=a2(b,aT(2)),d=c[1];return H(c[2],e)?s(g6(d)):s(g6(d))}function
-mD(c,b){var
-a=mj(c,b);return 0===a?0:0<=a?2:1}function
+mE(c,b){var
+a=mk(c,b);return 0===a?0:0<=a?2:1}function
 g7(j,i){var
 c=j,b=i;for(;;){if(D(c,a))return D(b,a)?1:H(a2(b,aT(2))[2],e)?0:0;var
 g=a2(c,aT(2)),h=g[1];if(H(g[2],e)){if(D(b,a))return 0;var
@@ -901,7 +906,7 @@ d=a2(b,aT(2)),k=d[1];if(H(d[2],e)){var
 c=h,b=k;continue}return 0}if(D(b,a))return 0;var
 f=a2(b,aT(2)),l=f[1];if(H(f[2],e))return 0;var
 c=h,b=l;continue}}function
-g8(b,a){return 2<=mD(b,a)?0:1}function
+g8(b,a){return 2<=mE(b,a)?0:1}function
 eG(i,d,b){if(i){var
 f=i[1];if(D(d,a))return[0,a,[0,a,b]];var
 w=a2(d,aT(2)),g=w[1];if(H(w[2],e)){if(D(b,a))return[0,a,[0,d,a]];var
@@ -909,19 +914,19 @@ m=a2(b,aT(2)),A=m[1];if(H(m[2],e)){var
 j=eG(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
 k=eG(f,g,b),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(D(b,a))return[0,a,[0,d,a]];var
 v=a2(b,aT(2)),h=v[1];if(H(v[2],e)){var
-n=eG(f,d,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(mD(g,h)){case
+n=eG(f,d,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(mE(g,h)){case
 0:return[0,d,[0,a,a]];case
 1:var
-p=eG(f,mC(h,g),d),q=p[2],r=q[2],C=[0,r,G(r,c(2,q[1]))];return[0,p[1],C];default:var
-s=eG(f,mC(g,h),b),t=s[2],u=t[2],E=[0,G(u,c(2,t[1])),u];return[0,s[1],E]}}return[0,a,[0,d,b]]}function
+p=eG(f,mD(h,g),d),q=p[2],r=q[2],C=[0,r,G(r,c(2,q[1]))];return[0,p[1],C];default:var
+s=eG(f,mD(g,h),b),t=s[2],u=t[2],E=[0,G(u,c(2,t[1])),u];return[0,s[1],E]}}return[0,a,[0,d,b]]}function
 g9(b,a){var
 c=g5(a);return eG(P(g5(b),c),b,a)}function
-mE(c,i,h){var
+mF(c,i,h){var
 d=i,b=h;for(;;){if(D(d,a))return b;var
 f=a2(d,aT(2)),g=f[1];if(H(f[2],e)){var
-d=g,b=au(c,b,b);continue}return au(c,b,mE(c,g,au(c,b,b)))}}function
-fF(a){return mE(P,a,uK)}function
-mF(b){return b?s(mF(b[1])):a}function
+d=g,b=au(c,b,b);continue}return au(c,b,mF(c,g,au(c,b,b)))}}function
+fF(a){return mF(P,a,uL)}function
+mG(b){return b?s(mG(b[1])):a}function
 cO(f,e){var
 b=f,d=e;for(;;)if(typeof
 b==="number")return d;else
@@ -945,27 +950,27 @@ t=E(c(2,s(c(2,c(2,a)))),d),u=G(s(c(2,s(c(2,a)))),t),b=b[1],d=u;continue;case
 8:var
 v=E(c(2,s(c(2,c(2,a)))),d),w=G(c(2,c(2,c(2,a))),v),b=b[1],d=w;continue;default:var
 x=E(c(2,s(c(2,c(2,a)))),d),y=G(s(c(2,c(2,c(2,a)))),x),b=b[1],d=y;continue}}function
-jj(b){if(D(b,a))return uL;var
+jj(b){if(D(b,a))return uM;var
 c=a2(b,aT(2)),d=c[1];return H(c[2],e)?b7(jj(d)):b8(jj(d))}function
 g_(a){return gZ(jj(a))}function
-mG(c,b){var
-a=mj(c,b);return 0===a?0:0<=a?2:1}function
-mH(b,a){return 0<a1(b)?0<a1(a)?g7(b,a):0:0<a1(a)?0:1}function
-mI(b,a){return 2<=mG(b,a)?0:1}function
-fG(b,a){return 1===mG(b,a)?1:0}var
-mJ=G,uN=W;function
+mH(c,b){var
+a=mk(c,b);return 0===a?0:0<=a?2:1}function
+mI(b,a){return 0<a1(b)?0<a1(a)?g7(b,a):0:0<a1(a)?0:1}function
+mJ(b,a){return 2<=mH(b,a)?0:1}function
+fG(b,a){return 1===mH(b,a)?1:0}var
+mK=G,uO=W;function
 cq(k,f){if(0<=a1(f)){var
 g=je(f);if(0<=g){var
 d=a,c=k,b=g;for(;;){if(0===b)return d;var
-h=b>>>1|0,i=E(c,c),j=1===(b&1)?E(d,c):d,d=j,c=i,b=h;continue}}return gY(uF)}return e}function
+h=b>>>1|0,i=E(c,c),j=1===(b&1)?E(d,c):d,d=j,c=i,b=h;continue}}return gY(uG)}return e}function
 jk(c,b){var
-a=mj(c,b);return 0===a?0:0<=a?2:1}function
+a=mk(c,b);return 0===a?0:0<=a?2:1}function
 jl(c){var
 b=a1(c);return 0===b?e:0<b?a:W(a)}function
 jm(a){return 0<=a1(a)?a:e}function
 eH(b){var
 c=a1(b);return 0===c?a:0<c?b:a}function
-mK(m){var
+mL(m){var
 b=m;for(;;)if(typeof
 b==="number")return e;else
 switch(b[0]){case
@@ -988,15 +993,15 @@ j=s(c(2,s(c(2,a))));return cO(b[1],j);case
 k=c(2,c(2,c(2,a)));return cO(b[1],k);default:var
 l=s(c(2,c(2,c(2,a))));return cO(b[1],l)}}function
 cP(b,a){var
-c=a1(a);return 0===c?e:1===c?mk(b,a):mv(-1,mk(mv(-1,b),a))}function
-mL(b){var
+c=a1(a);return 0===c?e:1===c?ml(b,a):mw(-1,ml(mw(-1,b),a))}function
+mM(b){var
 f=a1(b);if(0===f)return e;if(0<f){if(D(b,a))return e;var
 c=a2(b,aT(2)),d=c[1];return H(c[2],e)?g6(d):g6(d)}return e}function
-g$(a){return 0<a1(a)?Mn(a):e}function
+g$(a){return 0<a1(a)?Mo(a):e}function
 fH(b,c){var
-a=je(c);return 0<=a?ux(b,a):uy(b,-a|0)}function
+a=je(c);return 0<=a?uy(b,a):uz(b,-a|0)}function
 dQ(b,c){var
-a=je(c);return 0<=a?uy(b,a):ux(b,-a|0)}function
+a=je(c);return 0<=a?uz(b,a):uy(b,-a|0)}function
 bH(b,a){return a?a[1]:b}function
 by(a){var
 b=a?a[2]:a;return b}function
@@ -1045,7 +1050,7 @@ aN(b,e){var
 a=e;for(;;){if(a){var
 c=a[2],d=a[1];if(h(b,d))return[0,d,aN(b,c)];var
 a=c;continue}return a}}function
-mM(d,c){var
+mN(d,c){var
 a=c;for(;;){if(a){var
 b=a[1];if(h(d,b))return[0,b];var
 a=a[2];continue}return a}}function
@@ -1064,7 +1069,7 @@ c=b;return c}function
 aw(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
-mN(d,h){var
+mO(d,h){var
 b=h;a:for(;;){if(b){var
 c=b[2],e=b[1],a=c;for(;;){if(a){if(!au(d,a[1],e)){var
 a=a[2];continue}var
@@ -1072,22 +1077,22 @@ f=1}else
 var
 f=a;if(f){var
 b=c;continue a}var
-g=[0,e,mN(d,c)];break}}else
+g=[0,e,mO(d,c)];break}}else
 var
 g=b;return g}}function
 ax(b,a){var
 c=a?[0,b,ax([0,b],a[1])]:a;return c}function
 X(b,a){var
 c=a?[0,b,X(b,a[1])]:a;return c}function
-mO(a){return an(P,0,a)}function
-mP(b){if(b){var
-d=mP(b[2]),f=E(c(2,a),d),g=b[1]?a:e;return G(g,f)}return e}function
-mQ(j){function
+mP(a){return an(P,0,a)}function
+mQ(b){if(b){var
+d=mQ(b[2]),f=E(c(2,a),d),g=b[1]?a:e;return G(g,f)}return e}function
+mR(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=mP([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a1(b)?fF(b):0}function
-mR(c,b){var
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=mQ([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a1(b)?fF(b):0}function
+mS(c,b){var
 a=c-b|0,d=0<=a?0===a?0:2:1;return 2<=d?0:1}function
-mS(b){return[0,b,a]}function
+mT(b){return[0,b,a]}function
 eJ(b,a){return jk(E(b[1],a[2]),E(a[1],b[2]))?0:1}function
 bp(b,a){return D(E(b[1],a[2]),E(a[1],b[2]))}function
 dR(b,a){return[0,G(E(b[1],a[2]),E(a[1],b[2])),E(b[2],a[2])]}function
@@ -1114,7 +1119,7 @@ var
 d=g9(p,W(a)),f=d[2],c=[0,d[1],[0,W(f[1]),W(f[2])]]}var
 r=c[2],s=eH(r[2]);return[0,r[1],s]}function
 bA(a){if(typeof
-a==="number")return uP;else
+a==="number")return uQ;else
 switch(a[0]){case
 0:var
 b=bA(a[1]);return bo(b6(1,48),b);case
@@ -1136,26 +1141,26 @@ i=bA(a[1]);return bo(b6(1,55),i);case
 j=bA(a[1]);return bo(b6(1,56),j);default:var
 k=bA(a[1]);return bo(b6(1,57),k)}}function
 fI(a){return typeof
-a==="number"?uQ:bA(a)}function
+a==="number"?uR:bA(a)}function
 cR(b){return cq(c(2,a),b)}function
-mT(b,a){return dQ(a,b)}function
-mU(b,a){return W(dQ(W(a),b))}function
+mU(b,a){return dQ(a,b)}function
+mV(b,a){return W(dQ(W(a),b))}function
 hc(b,a){return W(cP(W(b),a))}function
 K(c,b){var
 a=fH(b,c);return[0,a,a]}function
-mV(d,c,a){var
+mW(d,c,a){var
 b=fH(c,d),e=hc(b,a);return[0,cP(b,a),e]}function
 w(b,a){return[0,G(b[1],a[1]),G(b[2],a[2])]}function
 B(b,a){return[0,aX(b[1],a[2]),aX(b[2],a[1])]}function
 N(a){return[0,W(a[2]),W(a[1])]}function
-mW(d,c,b,a){if(D(e,d))return D(e,b)?[0,E(d,b),E(c,a)]:D(a,e)?[0,E(c,b),E(d,a)]:[0,E(c,b),E(c,a)];if(D(c,e))return D(e,b)?[0,E(d,a),E(c,b)]:D(a,e)?[0,E(c,a),E(d,b)]:[0,E(d,a),E(d,b)];if(D(e,b))return[0,E(d,a),E(c,a)];if(D(a,e))return[0,E(c,b),E(d,b)];var
+mX(d,c,b,a){if(D(e,d))return D(e,b)?[0,E(d,b),E(c,a)]:D(a,e)?[0,E(c,b),E(d,a)]:[0,E(c,b),E(c,a)];if(D(c,e))return D(e,b)?[0,E(d,a),E(c,b)]:D(a,e)?[0,E(c,a),E(d,b)]:[0,E(d,a),E(d,b)];if(D(e,b))return[0,E(d,a),E(c,a)];if(D(a,e))return[0,E(c,b),E(d,b)];var
 f=bx(E(d,b),E(c,a));return[0,ji(E(d,a),E(c,b)),f]}function
 r(c,b,a){var
-d=mW(b[1],b[2],a[1],a[2]),e=mU(c,d[2]);return[0,mT(c,d[1]),e]}function
+d=mX(b[1],b[2],a[1],a[2]),e=mV(c,d[2]);return[0,mU(c,d[1]),e]}function
 Q(b,a){var
-c=E(a[1],a[1]),d=E(a[2],a[2]),h=mU(b,bx(c,d)),g=0;if(I(a[1],e)&&I(e,a[2])){var
+c=E(a[1],a[1]),d=E(a[2],a[2]),h=mV(b,bx(c,d)),g=0;if(I(a[1],e)&&I(e,a[2])){var
 f=e;g=1}if(!g)var
-f=mT(b,ji(c,d));return[0,f,h]}function
+f=mU(b,ji(c,d));return[0,f,h]}function
 hd(b,a){var
 c=fH(cR(b),b),d=hc(c,a[1]);return[0,cP(c,a[2]),d]}function
 bP(b,a){if(I(e,a[1]))return[0,hd(b,a)];var
@@ -1177,7 +1182,7 @@ g=b[2],h=W(dj(W(E(a,b[1])),c));return[0,dj(E(a,g),c),h]}function
 ak(b){var
 c=W(dQ(W(b[2]),a));return[0,dQ(b[1],a),c]}function
 bQ(c,b,a){var
-d=mW(c[1],c[2],b[1],b[2]),f=d[2],g=d[1],h=I(f,e)?a[2]:a[1],i=hc(f,h),j=I(g,e)?a[1]:a[2];return[0,cP(g,j),i]}function
+d=mX(c[1],c[2],b[1],b[2]),f=d[2],g=d[1],h=I(f,e)?a[2]:a[1],i=hc(f,h),j=I(g,e)?a[1]:a[2];return[0,cP(g,j),i]}function
 bR(a){return bx(a[2],W(a[1]))}var
 t=[0,e,e];function
 bq(a){return[0,a[1],a[1]]}function
@@ -1249,13 +1254,13 @@ c=b[1];return fJ(c)?n(W(c)):[0,[5,a]];case
 A(b,a){if(bf(e,a))return b;if(bf(e,b))return bB(a);var
 c=b[1];if(0===c[0]){var
 d=a[1];return 0===d[0]?m(c[1],d[1])?n(e):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
-_(a){var
+$(a){var
 c=he(a);if(c){var
 b=c[1];return fJ(b)?n(E(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-u(b,c){if(!bf(e,b)&&!bf(a,c)){if(!bf(e,c)&&!bf(a,b))return a3(b,c)?_(b):[0,[6,b,c]];return c}return b}function
+u(b,c){if(!bf(e,b)&&!bf(a,c)){if(!bf(e,c)&&!bf(a,b))return a3(b,c)?$(b):[0,[6,b,c]];return c}return b}function
 aj(c,b){return bf(a,b)?c:[0,[7,c,b]]}function
 aR(b){return bf(a,b)?b:[0,[9,b]]}function
-mX(d,c,b,a){return[0,[10,d,c,b,a]]}function
+mY(d,c,b,a){return[0,[10,d,c,b,a]]}function
 eL(b,a){if(a){var
 c=a[3];if(c){var
 d=a[1];return m(d,c[1])?[0,[0,d],[1,b,a[2],c[2]],c[3]]:[0,0,[0,b],a]}return[0,0,[0,b],a]}return[0,0,[0,b],a]}function
@@ -1273,7 +1278,7 @@ jq(a,b){if(0===a[0])return[0,a[1],b];var
 c=jq(a[3],b),d=jq(a[2],c);return[0,a[1],d]}function
 jr(a){if(a){var
 b=jr(a[3]);return jq(a[2],b)}return a}function
-mY(a){if(a){var
+mZ(a){if(a){var
 c=a[3],b=a[2],d=a[1];if(0===b[0])return[0,[0,b[1],c]];var
 e=b[3],f=[0,aY(d),e,c],g=b[2],h=[0,aY(d),g,f];return[0,[0,b[1],h]]}return a}function
 js(c,b,a){if(0===a[0])return[0,c];var
@@ -1281,9 +1286,9 @@ d=a[3],e=a[2],f=a[1];if(typeof
 b!=="number")switch(b[0]){case
 0:return[1,f,js(c,b[1],e),d];case
 1:return[1,f,e,js(c,b[1],d)]}return[1,c,e,d]}function
-mZ(c,b,a){if(a){var
+m0(c,b,a){if(a){var
 d=a[3],e=a[2],f=a[1];if(typeof
-b!=="number"&&2===b[0])return[0,f,e,mZ(c,b[1],d)];var
+b!=="number"&&2===b[0])return[0,f,e,m0(c,b[1],d)];var
 g=[0,f,js(c,b,e),d]}else
 var
 g=a;return g}function
@@ -1296,7 +1301,7 @@ d=c[2],f=c[1];if(b){if(b[1]){var
 i=eL(h(g,b9(function(b){return function(a){return jp(e,a,b)}}(a),f)),a),b=by(b),c=d,a=i;continue}var
 j=eL(e,a),b=b[2],c=d,a=j;continue}var
 k=eL(h(g,b9(function(b){return function(a){return jp(e,a,b)}}(a),f)),a),b=by(b),c=d,a=k;continue}return jr(a)}}function
-m0(a){switch(a[0]){case
+m1(a){switch(a[0]){case
 10:return[0,a[2],[0,a[3],[0,a[4],0]]];case
 5:case
 8:case
@@ -1304,15 +1309,15 @@ m0(a){switch(a[0]){case
 0:case
 1:case
 2:return 0;default:return[0,a[1],[0,a[2],0]]}}var
-uR=1;function
-m1(a,b){return mZ(uR,a,b)}function
-m2(e,c){if(c){var
+uS=1;function
+m2(a,b){return m0(uS,a,b)}function
+m3(e,c){if(c){var
 f=c[2],g=c[1],b=g,a=e;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}var
 d=[0,b]}else
 var
 d=[1,a];if(0===d[0])return[0,e,[0,d[1],f]];var
-h=d[1];return h?[0,g,m2(h,f)]:c}}return[0,e,0]}function
+h=d[1];return h?[0,g,m3(h,f)]:c}}return[0,e,0]}function
 hf(c,b){if(b){var
 d=b[2];if(c){var
 a=c[2],e=c[1];if(e)return[0,0,hf([0,e[1],a],d)];if(a)var
@@ -1322,25 +1327,25 @@ f=a;return[0,1,hf(f,d)]}var
 g=[0,0,hf(0,d)]}else
 var
 g=b;return g}function
-m3(b,a){var
-c=0;return an(eL,0,hf(bz(function(b,a){return m2(a,b)},b,c),a))}function
+m4(b,a){var
+c=0;return an(eL,0,hf(bz(function(b,a){return m3(a,b)},b,c),a))}function
 bC(k,h){var
-l=m3(k,h),b=eI(h,0),c=l,a=0;for(;;){if(b){var
-d=mY(c);if(d){var
-e=d[1],f=e[2],g=e[1],i=[0,g,a],j=g?an(m1,f,m0(b[1])):f,b=b[2],c=j,a=i;continue}return a}return a}}function
+l=m4(k,h),b=eI(h,0),c=l,a=0;for(;;){if(b){var
+d=mZ(c);if(d){var
+e=d[1],f=e[2],g=e[1],i=[0,g,a],j=g?an(m2,f,m1(b[1])):f,b=b[2],c=j,a=i;continue}return a}return a}}function
 dl(a){function
 b(a){return[0,a]}return cS(n(e),b,a)}function
 S(a){switch(a[0]){case
 0:return 0;case
-1:return uS;case
-2:return uT;case
-3:return uU;case
-4:return uV;case
-5:return uW;case
-6:return uX;case
-7:return uY;case
-8:return uZ;case
-9:return u0;default:return u1}}function
+1:return uT;case
+2:return uU;case
+3:return uV;case
+4:return uW;case
+5:return uX;case
+6:return uY;case
+7:return uZ;case
+8:return u0;case
+9:return u1;default:return u2}}function
 a_(J,I,H){var
 e=J,g=I,f=H;for(;;){if(e){var
 j=e[1];if(j){var
@@ -1426,15 +1431,15 @@ F=a_(i,A,b[4]);if(F)return F;var
 G=a_(i,B,b[3]);if(G)return G;var
 e=i,g=C,f=b[2];continue}var
 ag=S(b);return aA(S(d),ag)}}}function
-m4(b,a){var
-c=a_(u2,b,a);return c?c:a_(0,b,a)}function
-m5(c,b){var
-a=b;for(;;){if(a)switch(m4(c,a[3])){case
+m5(b,a){var
+c=a_(u3,b,a);return c?c:a_(0,b,a)}function
+m6(c,b){var
+a=b;for(;;){if(a)switch(m5(c,a[3])){case
 0:return[0,a[4]];case
 1:var
 a=a[2];continue;default:var
 a=a[5];continue}return a}}function
-u3(b,d,c,a){if(b){var
+u4(b,d,c,a){if(b){var
 e=b[5],s=b[4],t=b[3],l=b[2];if(b[1]){if(l){if(l[1])return[0,1,[0,0,l[2],l[3],l[4],l[5]],t,s,[0,0,e,d,c,a]];if(e){if(e[1])return[0,1,[0,0,l,t,s,e[2]],e[3],e[4],[0,0,e[5],d,c,a]];if(a){if(a[1]){var
 f=a[5],u=a[4],v=a[3],m=a[2];return m?m[1]?[0,1,[0,0,b,d,c,m[2]],m[3],m[4],[0,0,m[5],v,u,f]]:f?f[1]?[0,1,[0,0,b,d,c,m],v,u,[0,0,f[2],f[3],f[4],f[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:f?f[1]?[0,1,[0,0,b,d,c,m],v,u,[0,0,f[2],f[3],f[4],f[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}if(a){if(a[1]){var
 g=a[5],w=a[4],x=a[3],n=a[2];return n?n[1]?[0,1,[0,0,b,d,c,n[2]],n[3],n[4],[0,0,n[5],x,w,g]]:g?g[1]?[0,1,[0,0,b,d,c,n],x,w,[0,0,g[2],g[3],g[4],g[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:g?g[1]?[0,1,[0,0,b,d,c,n],x,w,[0,0,g[2],g[3],g[4],g[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}if(e){if(e[1])return[0,1,[0,0,l,t,s,e[2]],e[3],e[4],[0,0,e[5],d,c,a]];if(a){if(a[1]){var
@@ -1443,21 +1448,21 @@ i=a[5],A=a[4],B=a[3],p=a[2];return p?p[1]?[0,1,[0,0,b,d,c,p[2]],p[3],p[4],[0,0,p
 j=a[5],C=a[4],D=a[3],q=a[2];return q?q[1]?[0,1,[0,0,b,d,c,q[2]],q[3],q[4],[0,0,q[5],D,C,j]]:j?j[1]?[0,1,[0,0,b,d,c,q],D,C,[0,0,j[2],j[3],j[4],j[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:j?j[1]?[0,1,[0,0,b,d,c,q],D,C,[0,0,j[2],j[3],j[4],j[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}if(a){if(a[1]){var
 k=a[5],E=a[4],F=a[3],r=a[2];return r?r[1]?[0,1,[0,0,b,d,c,r[2]],r[3],r[4],[0,0,r[5],F,E,k]]:k?k[1]?[0,1,[0,0,b,d,c,r],F,E,[0,0,k[2],k[3],k[4],k[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:k?k[1]?[0,1,[0,0,b,d,c,r],F,E,[0,0,k[2],k[3],k[4],k[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}function
 jt(b,c,a){if(a){var
-e=a[5],f=a[4],d=a[3],g=a[2],h=a[1]?function(d,c,b,a){return[0,1,d,c,b,a]}:u3;switch(m4(b,d)){case
+e=a[5],f=a[4],d=a[3],g=a[2],h=a[1]?function(d,c,b,a){return[0,1,d,c,b,a]}:u4;switch(m5(b,d)){case
 0:return a;case
 1:return h(jt(b,c,g),d,f,e);default:return h(g,d,f,jt(b,c,e))}}return[0,1,0,b,c,0]}function
-m6(d,c,b){var
+m7(d,c,b){var
 a=jt(d,c,b),e=a?[0,0,a[2],a[3],a[4],a[5]]:a;return e}function
 cT(a){var
 b=bz(function(a,b){var
-c=m6(b,a[1],a[2]);return[0,[0,a[1]],c]},a,u4)[2];return function(c){var
-a=m5(c,b),d=a?a[1]:a;return d}}function
+c=m7(b,a[1],a[2]);return[0,[0,a[1]],c]},a,u5)[2];return function(c){var
+a=m6(c,b),d=a?a[1]:a;return d}}function
 ju(b,a){if(0===a[0])return 0;var
 c=a[3];return H(b,a[1])?0:D(b,c[1])?[1,ju(b,c)]:[0,ju(b,a[2])]}function
-m7(c,a){if(a){var
-b=a[3],d=b?D(c,b[2][1]):b;return d?[2,m7(c,b)]:ju(c,a[2])}return a}function
+m8(c,a){if(a){var
+b=a[3],d=b?D(c,b[2][1]):b;return d?[2,m8(c,b)]:ju(c,a[2])}return a}function
 dU(k,d){var
-n=m5(k,d[1]);if(n)return[0,n[1],d];var
+n=m6(k,d[1]);if(n)return[0,n[1],d];var
 b=k[1],e=0;switch(b[0]){case
 0:var
 u=b[1],f=function(a){return[0,u]},c=d;break;case
@@ -1486,7 +1491,7 @@ o=dU(g,d),D=o[1],p=dU(i,o[2]),E=p[1],F=function(a){var
 b=h(a,E);return j(h(a,D),b)},f=F,c=p[2];break;case
 2:var
 q=dU(l,d),J=q[1],K=function(a){return m(h(a,J))},f=K,c=q[2];break}var
-v=c[4],w=[0,f(function(a){return m7(a,c[2])}),v],x=G(c[3],a),y=eL(c[3],c[2]),z=[0,m6(k,c[3],c[1]),y,x,w];return[0,c[3],z]}function
+v=c[4],w=[0,f(function(a){return m8(a,c[2])}),v],x=G(c[3],a),y=eL(c[3],c[2]),z=[0,m7(k,c[3],c[1]),y,x,w];return[0,c[3],z]}function
 dm(a){var
 b=0,c=[0,0,0,e,0];return eI(bz(function(b,a){return dU(a,b)[2]},a,c)[4],b)}function
 hg(a){return an(function(b,a){return G(bR(b),a)},e,a)}function
@@ -1534,7 +1539,7 @@ j=e;return j}function
 dn(b,a){return a?h(b,a[1]):a}function
 hh(a){var
 b=d(ak,a[3]),c=ak(w(a[2],a[1]));return cU(a[1],c,b)}function
-m8(b,k,j,s,c){var
+m9(b,k,j,s,c){var
 l=hh(k),m=hh(j),g=hh(c[1]),h=hh(c[2]),t=aK(b,l,h),u=bg(aK(b,m,g),t),i=eN(b,R(K(b,a)),u);if(i)var
 f=i[1],n=aK(b,bg(l,g),f),o=aK(b,bg(m,h),f),e=function(c,a){return aK(b,c,R(a))},v=j[3],w=k[3],x=function(b,a){var
 c=e(o,a);return cs(e(n,b),c)},y=function(a){return e(o,a)},z=aJ(function(a){return e(n,a)},y,x,w,v),A=s[3],B=function(b,a){return bg(b,e(f,ak(a)))[2]},C=function(a){return dV(e(f,ak(a)))[2]},p=aJ(function(a){return a[2]},C,B,z,A),D=g[2],E=d(function(a){return r(b,D,a)},p),F=cU(c[2][1],c[2][2],E),G=N(h[2]),H=d(function(a){return r(b,G,a)},p),q=[0,[0,cU(c[1][1],c[1][2],H),F]];else
@@ -1549,7 +1554,7 @@ n=i;var
 o=n}else
 var
 o=h;var
-u=dn(function(a){return m8(b,e,d,k,a)},o);return dn(function(a){return m8(b,e,d,k,a)},u)}function
+u=dn(function(a){return m9(b,e,d,k,a)},o);return dn(function(a){return m9(b,e,d,k,a)},u)}function
 ct(d,b,a){if(b){if(a)return au(d,b[1],a[1]);var
 c=a}else
 var
@@ -1628,10 +1633,10 @@ j=fK(c,g);if(j)return d(i[1],j[1]);var
 l=j}else
 var
 l=i;return l}function
-u5(a){return 0}function
-cV(a){return fK(u5,a)}function
+u6(a){return 0}function
+cV(a){return fK(u6,a)}function
 b$(b,c){switch(c[0]){case
-0:return[0,mV(b,c[1],c[2])];case
+0:return[0,mW(b,c[1],c[2])];case
 1:return 0;case
 2:var
 g=b$(b,c[1]);if(g)var
@@ -1662,8 +1667,8 @@ d=p[1];if(I(e,d[1]))return cr(b,d);var
 f=cV(A),L=f?J(bp([0,e,a],f[1])):f;if(L)return 0;if(I(e,d[2])){var
 C=cr(b,[0,d[2],d[2]]);return y(function(a){return[0,e,a[2]]},C)}var
 q=H(d[2],e),D=q?[0,t]:q;return D}return p}}function
-cW(b,a){return mV(b,a[1],a[2])}function
-m9(b,f,e,d){var
+cW(b,a){return mW(b,a[1],a[2])}function
+m_(b,f,e,d){var
 h=[0,a,c(2,a)],i=[0,cW(b,bb(dS(d,e),h)),0],j=g(X(t,f),i),k=cW(b,d)[2],l=[0,cW(b,e)[1],k],m=[0,a,c(2,a)];return[0,cW(b,bb(dR(e,d),m)),l,j]}function
 eO(c,e,a){function
 b(a){return eO(c,e,a)}if(dW(a))switch(a[0]){case
@@ -1682,118 +1687,118 @@ n=b(a[2]),o=b(a[1]);return ct(function(a,b){return eN(c,a,b)},o,n);default:var
 p=b(a[1]);return dn(function(a){return jv(c,a)},p)}return y(R,b$(c,a))}function
 aG(b,a){if(dW(a)){var
 c=eO(b,function(d,c,a){var
-e=aF(d,dX),f=e?bp(c,a):e,g=f?[0,m9(b,d,c,a)]:f;return g},a);return y(function(a){return a[2]},c)}return b$(b,a)}function
+e=aF(d,dX),f=e?bp(c,a):e,g=f?[0,m_(b,d,c,a)]:f;return g},a);return y(function(a){return a[2]},c)}return b$(b,a)}function
 jx(b){var
 d=bx(W(b),e);return eH(G(c(2,c(2,c(2,c(2,c(2,c(2,a)))))),d))}function
-m_(a){return jm(G(jx(a),a))}function
-m$(b,a){var
-c=m_(b),d=W(dj(W(a[2]),c)),e=m_(b);return[0,dj(a[1],e),d]}function
+m$(a){return jm(G(jx(a),a))}function
+na(b,a){var
+c=m$(b),d=W(dj(W(a[2]),c)),e=m$(b);return[0,dj(a[1],e),d]}function
 dp(c,a,b){var
-d=aG(G(c,jx(a)),b);return y(function(b){return m$(a,b)},d)}function
+d=aG(G(c,jx(a)),b);return y(function(b){return na(a,b)},d)}function
 av(d,a){var
 b=dp(d,a[2],a[1][1]);if(b)var
 c=dp(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-na(b,a){var
+nb(b,a){var
 c=W(dj(W(a[2]),b));return[0,dj(a[1],b),c]}function
 hi(b,a){var
 c=hc(b[2],a);return[0,cP(b[1],a),c]}function
-nb(h,g,d,b){var
-e=b[2],f=mF(d),i=c(2,f),j=E(mB(f),i),a=hi(r(h,b[1],g),j),k=mz(d)?B(e,a):w(e,a);return[0,a,k]}function
-nc(b,d,c){if(c){var
-e=c[1];return nb(b,d,e,nc(b,d,e))}var
+nc(h,g,d,b){var
+e=b[2],f=mG(d),i=c(2,f),j=E(mC(f),i),a=hi(r(h,b[1],g),j),k=mA(d)?B(e,a):w(e,a);return[0,a,k]}function
+nd(b,d,c){if(c){var
+e=c[1];return nc(b,d,e,nd(b,d,e))}var
 f=K(b,a);return[0,K(b,a),f]}function
-nd(e,g){var
+ne(e,g){var
 o=cR(e),p=E(c(2,c(2,a)),o),j=D(g[2],p);if(j){var
-n=fF(e),i=u6[1],d=n,f=0,b=i;for(;;){if(d){var
+n=fF(e),i=u7[1],d=n,f=0,b=i;for(;;){if(d){var
 h=d[1];if(b){var
 d=h,b=b[1];continue}var
 d=h,f=[0,f],b=i;continue}var
-k=P(g0(u9,P(u7,f)),u8),l=nc(e,g,k),q=nb(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
+k=P(g0(u_,P(u8,f)),u9),l=nd(e,g,k),q=nc(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
 var
 m=j;return m}function
-ne(i){function
+nf(i){function
 b(h){var
 m=cP(cR(i),h),g=fF(i),f=m,d=e,b=a;for(;;){if(g){var
 j=G(b,c(2,a)),k=G(d,cP(f,b)),l=W(cP(f,E(h,h))),g=g[1],f=l,d=k,b=j;continue}return d}}var
 d=b(s(c(2,s(c(2,s(c(2,s(c(2,c(2,s(c(2,s(c(2,a)))))))))))))),f=E(c(2,c(2,a)),d),g=b(s(c(2,c(2,a))));return aX(E(c(2,c(2,c(2,c(2,a)))),g),f)}function
-nf(d,b){var
+ng(d,b){var
 f=D(e,b);if(f){var
-g=c(2,c(2,a));return nd(d,hi(Q(d,[0,b,b]),g))}return f}function
-ng(b){var
-m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,a)))))))))))),g=aX(ne(b),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,a)))))))))))),h=G(ne(b),n),d=nf(b,g);if(d){var
-f=nf(b,h);if(f)var
+g=c(2,c(2,a));return ne(d,hi(Q(d,[0,b,b]),g))}return f}function
+nh(b){var
+m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,a)))))))))))),g=aX(nf(b),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,a)))))))))))),h=G(nf(b),n),d=ng(b,g);if(d){var
+f=ng(b,h);if(f)var
 i=I(e,d[1][1]),j=i?I(f[1][2],e):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=d;return l}function
-nh(b,d){var
+ni(b,d){var
 c=Q(b,d),e=K(b,a);return B(w(c,c),e)}function
 dq(f,j){var
 e=aG(G(f,c(2,c(2,c(2,c(2,c(2,c(2,a))))))),j);if(e){var
-k=e[1],b=G(f,c(2,c(2,c(2,c(2,c(2,c(2,a))))))),d=ng(b);if(d)var
-h=c(2,c(2,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))))),i=nd(b,Q(b,hi(r(b,k,d[1]),h))),g=y(function(a){return nh(b,nh(b,a))},i);else
+k=e[1],b=G(f,c(2,c(2,c(2,c(2,c(2,c(2,a))))))),d=nh(b);if(d)var
+h=c(2,c(2,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))))),i=ne(b,Q(b,hi(r(b,k,d[1]),h))),g=y(function(a){return ni(b,ni(b,a))},i);else
 var
 g=d;var
-l=c(2,c(2,c(2,c(2,c(2,c(2,a))))));return y(function(a){return na(l,a)},g)}return e}function
+l=c(2,c(2,c(2,c(2,c(2,c(2,a))))));return y(function(a){return nb(l,a)},g)}return e}function
 jy(b,d){var
-e=ng(G(b,c(2,c(2,c(2,c(2,c(2,c(2,a))))))));return y(function(e){var
-f=c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a))))))))));return hi(r(b,d,na(c(2,c(2,c(2,c(2,c(2,c(2,a)))))),e)),f)},e)}function
+e=nh(G(b,c(2,c(2,c(2,c(2,c(2,c(2,a))))))));return y(function(e){var
+f=c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a))))))))));return hi(r(b,d,nb(c(2,c(2,c(2,c(2,c(2,c(2,a)))))),e)),f)},e)}function
 hj(d,b){return dq(d,[3,b,[0,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a))))))))),a]])}function
 i(i,d,c){var
 f=cV(c);if(f){var
 g=f[1];return d?J(bp(g,[0,e,a])):bp([0,e,a],g)}var
 b=aG(i,c);if(b){var
 h=b[1];return d?I(e,h[1]):D(e,h[1])}return b}function
-ni(c,b){var
+nj(c,b){var
 a=aG(c,b),d=a?1:a;return d}function
 bI(c,a,b){var
-d=cu(a,b),e=d?ni(c,a):d;return e?e:i(c,0,[3,b,a])}function
-u_(c){var
+d=cu(a,b),e=d?nj(c,a):d;return e?e:i(c,0,[3,b,a])}function
+u$(c){var
 a=dT(c),g=eH(g$(a[2])),b=[0,g$(a[1]),g],d=I(e,a[1]),f=d?eJ(bb(b,b),c):d,h=f?[0,b]:f;return h}function
-nj(b){if(b){var
+nk(b){if(b){var
 d=b[2],c=b[1];if(eJ(bH([0,e,a],c),[0,e,a])){var
-g=nj(d);return y(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
+g=nk(d);return y(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
 f=[0,[0,c,d]]}else
 var
 f=b;return f}function
-nk(c,b){var
+nl(c,b){var
 d=M(c,b),f=[0,e,a];return an(function(a,b){return dT(dR(bb(a[1],a[2]),b))},f,d)}function
-nl(c,j){if(c){var
-f=c[1],g=nj(j);if(g){var
+nm(c,j){if(c){var
+f=c[1],g=nk(j);if(g){var
 h=g[1],b=h[1],k=function(c){var
 f=bH([0,e,a],b),g=hb(bH([0,e,a],c),f),h=by(b),i=M(by(c),h);return d(function(a){var
-b=bb(g,a[2]);return dT(dS(a[1],b))},i)},l=nl(f,d(k,h[2]));return y(function(c){var
-d=bH([0,e,a],b);return[0,dT(hb(ha(nk(by(b),c)),d)),c]},l)}var
+b=bb(g,a[2]);return dT(dS(a[1],b))},i)},l=nm(f,d(k,h[2]));return y(function(c){var
+d=bH([0,e,a],b);return[0,dT(hb(ha(nl(by(b),c)),d)),c]},l)}var
 i=[0,[0,[0,a,a],X([0,e,a],f)]]}else
 var
 i=c;return i}function
-nm(a){if(a){var
-b=fK(u_,a[1]);if(b)var
-c=nm(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
-var
-d=b;return d}return u$}function
 nn(a){if(a){var
-b=nm(a[1]);if(b)var
+b=fK(u$,a[1]);if(b)var
 c=nn(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
 d=b;return d}return va}function
-no(i,n){var
-b=nn(n);if(b){var
-j=b[1],c=nl(i,j);if(c){var
-d=c[1],g=m(f(d),i),h=g?ag(function(b){return J(eJ(b,[0,e,a]))},d):g;return h?k(function(b){return eJ(nk(b,d),[0,e,a])},j):h}var
+no(a){if(a){var
+b=nn(a[1]);if(b)var
+c=no(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+var
+d=b;return d}return vb}function
+np(i,n){var
+b=no(n);if(b){var
+j=b[1],c=nm(i,j);if(c){var
+d=c[1],g=m(f(d),i),h=g?ag(function(b){return J(eJ(b,[0,e,a]))},d):g;return h?k(function(b){return eJ(nl(b,d),[0,e,a])},j):h}var
 l=c}else
 var
 l=b;return l}function
-vb(a){return a}function
 vc(a){return a}function
-vd(a,b){return aJ(vc,vb,w,a,b)}function
-ve(a){return a}function
+vd(a){return a}function
+ve(a,b){return aJ(vd,vc,w,a,b)}function
 vf(a){return a}function
-aL(a,b){return aJ(vf,ve,vd,a,b)}function
+vg(a){return a}function
+aL(a,b){return aJ(vg,vf,ve,a,b)}function
 jz(b,f,c,e){if(c){var
 h=c[2],i=K(b,a),g=bQ(c[1],i,f);if(e){var
 j=jz(b,f,h,e[2]),k=e[1],l=function(c,a){return B(c,r(b,g,a))},m=function(a){return N(r(b,g,a))};return[0,aJ(function(a){return a},m,l,k,c),j]}var
@@ -1806,30 +1811,30 @@ f=b;var
 g=f}else
 var
 g=a;return g}function
-np(g,f,e){var
+nq(g,f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
 c=eP(g,b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-nq(d,b,a){if(b)if(a)var
-e=a[1],f=nq(d,b[2],a[2]),g=cp(d,b[1])?bq(e):bS(e),c=[0,g,f];else
+nr(d,b,a){if(b)if(a)var
+e=a[1],f=nr(d,b[2],a[2]),g=cp(d,b[1])?bq(e):bS(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-nr(a,b){if(a)if(b)var
-d=nr(a[2],b[2]),c=[0,nq(a[1],a,b[1]),d];else
+ns(a,b){if(a)if(b)var
+d=ns(a[2],b[2]),c=[0,nr(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
 a4(a){if(a){var
-b=a[1],c=a4(b),e=d(function(a){return[0,1,a]},c),f=a4(b);return g(d(function(a){return[0,0,a]},f),e)}return vg}function
+b=a[1],c=a4(b),e=d(function(a){return[0,1,a]},c),f=a4(b);return g(d(function(a){return[0,0,a]},f),e)}return vh}function
 eQ(c,a){var
-b=f(a);if(np(c,b,a))return 1;var
-d=a4(aY(b));return k(function(d){return np(c,b,nr([0,0,d],a))},d)}function
+b=f(a);if(nq(c,b,a))return 1;var
+d=a4(aY(b));return k(function(d){return nq(c,b,ns([0,0,d],a))},d)}function
 aC(a){function
 b(b){var
 c=h(a,b[2]);return[0,d(a,b[1]),c]}return function(a){return d(b,a)}}function
@@ -1873,7 +1878,7 @@ h=c;var
 i=h}else
 var
 i=a;return i}return jA(b,jB(c,a),e)}function
-ns(h,g,a,f,e,c){var
+nt(h,g,a,f,e,c){var
 i=[0,t,t,0],b=d(function(a){return[0,a[1],i]},c),j=a?a[1]:[0,t,t,0];return fM(h,g,j,f,e,b)}function
 hm(b,a){var
 c=a4(b);return k(function(b){return I(e,aq(b,a)[1])},c)}function
@@ -1883,7 +1888,7 @@ hn(a,b){var
 c=b[3],d=a[3];function
 e(a){return a}var
 f=aJ(function(a){return a},e,w,d,c),g=a[2];return[0,w(a[1],b[1]),g,f]}function
-nt(a,b){var
+nu(a,b){var
 c=b[3],d=a[3],e=aJ(function(a){return a},N,B,d,c),f=a[2];return[0,B(a[1],b[1]),f,e]}function
 bT(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 ah(c,b,a){var
@@ -1898,26 +1903,26 @@ dY(a){return br(a,aR(ac(a,a)))}function
 dr(a){var
 b=a[5];return b?b[1]:aR(a[2])}function
 ho(b,a){return b?a:bB(a)}function
-nu(e,a,i,d,h){var
-f=ac(a,e),b=ah(A,e,a$(f,a)),j=ac(b,b),g=A(_(d),j),c=ho(h,aR(g)),k=A(f,c),l=ah(C,a,br(b,c));return[0,ah(C,b,a$(c,a)),g,l,k,[0,d],0,[0,i]]}function
-nv(a,e,d){var
+nv(e,a,i,d,h){var
+f=ac(a,e),b=ah(A,e,a$(f,a)),j=ac(b,b),g=A($(d),j),c=ho(h,aR(g)),k=A(f,c),l=ah(C,a,br(b,c));return[0,ah(C,b,a$(c,a)),g,l,k,[0,d],0,[0,i]]}function
+nw(a,e,d){var
 b=ac(a,a),c=aR(b),f=[0,e],g=y(function(b){return ah(A,a,a$(ac(b,a),b))},d);return[0,a,b,br(a,c),c,0,g,f]}function
-nw(c,b){var
+nx(c,b){var
 d=ac(b,c);return[0,b,n(a),b,d,0,0,0]}function
 fO(a){return d(function(a){var
 b=a[2];return[0,bT(a[1]),b]},a)}function
-nx(b){return d(function(b){var
+ny(b){return d(function(b){var
 c=n(a);return[0,bT(b[3]),c]},b)}function
-ny(b,a){var
+nz(b,a){var
 c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]}function
-nz(c,b,a){var
+nA(c,b,a){var
 d=au(c,b[3],a[3]),e=au(c,b[2],a[2]);return[0,au(c,b[1],a[1]),e,d]}function
 eR(d,a){var
 b=cr(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
 hp(a,n,f,m,d,l,j){var
-o=nz(bg,l,j),b=nz(function(b,c){return aK(a,b,c)},d,o),c=b[3],g=b[2],h=b[1],i=cs(cs(cs(R(K(a,e)),h),g),c),p=a4(n);return k(function(c){var
-b=ny(function(b){return Q(a,aq(c,b))},d),h=b[3],j=b[2],k=b[1],l=r(a,m,eR(a,w(w(w(K(a,e),k),j),h))),g=B(aq(c,i),l),n=f?B(g,aq(c,f[1])):g;return I(e,n[1])},p)}function
+o=nA(bg,l,j),b=nA(function(b,c){return aK(a,b,c)},d,o),c=b[3],g=b[2],h=b[1],i=cs(cs(cs(R(K(a,e)),h),g),c),p=a4(n);return k(function(c){var
+b=nz(function(b){return Q(a,aq(c,b))},d),h=b[3],j=b[2],k=b[1],l=r(a,m,eR(a,w(w(w(K(a,e),k),j),h))),g=B(aq(c,i),l),n=f?B(g,aq(c,f[1])):g;return I(e,n[1])},p)}function
 cw(b){return dQ(G(b[1],b[2]),a)}function
 eS(a){var
 b=cw(a);return aX(a[2],b)}function
@@ -1928,11 +1933,11 @@ d=b;return d}function
 ds(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
 e=ds(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,cw(a),f],c],h=cw(a);return[0,[0,[0,a[1],h],c],g]}return vh}function
-nA(d,c,b){if(c){if(b){var
-e=nA(d,c[2],b[2]);return w(aB(c[1],G(d,a),b[1]),e)}return t}return t}function
+f=a[2],g=[0,[0,cw(a),f],c],h=cw(a);return[0,[0,[0,a[1],h],c],g]}return vi}function
+nB(d,c,b){if(c){if(b){var
+e=nB(d,c[2],b[2]);return w(aB(c[1],G(d,a),b[1]),e)}return t}return t}function
 d0(f,a){if(a)var
-g=a[1],c=g[2],e=g[1],h=a[2],b=function(a,b){return nA(f,a,b)},j=d0(f,h),k=d(function(a){var
+g=a[1],c=g[2],e=g[1],h=a[2],b=function(a,b){return nB(f,a,b)},j=d0(f,h),k=d(function(a){var
 d=b(e,a[2]);return w(b(a[1],c),d)},h),l=b(e,c),i=[0,[0,w(b(e,c),l),k],j];else
 var
 i=a;return i}function
@@ -1954,50 +1959,50 @@ hr(d,b,a){if(b)var
 c=b[1],f=hr([0,d],b[2],a),h=g(X(t,d),[0,a,0]),e=[0,[0,c,[0,aX(c[1],a[2]),G(c[2],a[2])],h],f];else
 var
 e=b;return e}function
-nB(d){if(d){var
+nC(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=nB(d[2]);return y(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=nC(d[2]);return y(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return vi}function
-nC(d,c,b,a){return bS(bz(function(e,a){var
+f=a;return f}return vj}function
+nD(d,c,b,a){return bS(bz(function(e,a){var
 b=bR(aq(c,a[2]));return w(e,r(d,a[1],[0,b,b]))},a,b))}function
-nD(b,c,a){return c?aw(b,a):ao(b,a)}function
-nE(b,i,h,a){return eR(b,an(function(k,j){var
+nE(b,c,a){return c?aw(b,a):ao(b,a)}function
+nF(b,i,h,a){return eR(b,an(function(k,j){var
 p=d(function(b){var
 a=ax(0,i);return d(function(a){return bR(q(a,b[3],t))},a)},k);function
 a(n,m){var
-o=nD(h,n,p),g=d(function(a){return nD(h,m,a)},o);function
+o=nE(h,n,p),g=d(function(a){return nE(h,m,a)},o);function
 a(a){return an(bx,e,a)}var
 i=0;function
 j(a){return a}function
 k(a){return a}var
-c=a(an(function(a,b){return aJ(k,j,mJ,a,b)},i,g)),l=[0,c,c],f=a(d(function(a){return an(mJ,e,a)},g));return eR(b,r(b,[0,f,f],l))}var
+c=a(an(function(a,b){return aJ(k,j,mK,a,b)},i,g)),l=[0,c,c],f=a(d(function(a){return an(mK,e,a)},g));return eR(b,r(b,[0,f,f],l))}var
 c=a(1,1),f=a(1,0),g=a(0,1);return w(j,Q(b,w(w(w(a(0,0),g),f),c)))},t,a))}function
-nF(g,b,f,e){var
+nG(g,b,f,e){var
 h=ax(0,g);return d(function(d){var
 g=f?ae(b,d):aF(d,b);return g?a:cq(c(2,a),e)},h)}function
-nG(b,a){var
+nH(b,a){var
 c=M(b,a);return d(function(a){return aB(a[1],e,a[2])},c)}function
-nH(c,b,a){var
+nI(c,b,a){var
 e=[0,[0,a,0],0],f=M(c,b);return g(d(function(a){return g(a[1],[0,a[2],0])},f),e)}function
-nI(g,e){var
+nJ(g,e){var
 a=g,b=e;for(;;){if(b){if(a){var
 c=m(f(b[1]),a);if(c){var
 a=a[1],b=b[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-nJ(b,a){var
+nK(b,a){var
 c=M(b,a);return d(function(a){return a[1]?N(a[2]):a[2]},c)}function
-nK(a,f,b,e,c){var
+nL(a,f,b,e,c){var
 h=hr(a,X(t,dP(f,a)),c),i=g(d(R,aw(a,b)),h);return g(hr(0,ao(a,b),e),i)}function
-nL(b,d,c){var
+nM(b,d,c){var
 f=r(b,d,c);return I(e,B(K(b,a),f)[1])}function
 eT(a){return y(function(a){return y(dV,a)},a)}function
 bs(c,b,a){function
@@ -2080,13 +2085,13 @@ fR(h,g,f,e,d){var
 a=e,b=d;for(;;){if(a){var
 c=jE(h,g,f,a[1],b);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-nM(a){var
+nN(a){var
 b=a[2],c=d(function(a){return[0,a[1],t]},b);return[0,[0,a[1][1],t],c]}function
 jF(h,n,a,m,l,k){var
 e=m,c=l,b=k;for(;;){if(e){if(c){var
 i=c[1],j=i[1],f=e[1],o=bS(j[2]),p=aL(b,fL(a,f,cv(a,j[1],o,f))),q=i[2],r=d(function(c){return function(b){return d(ak,cv(a,b[1],b[2],c))}}(f),q),g=fR(h,n,d(function(b){return aB(b,a,aO(h))},f),r,p);if(g){var
 e=e[2],c=c[2],b=g[1];continue}return g}return[0,b]}return[0,b]}}function
-nN(a,j,r,q){var
+nO(a,j,r,q){var
 c=r,f=q;for(;;){if(c){var
 k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,bq(g),h],f];if(m){var
 o=I(e,g[1]);if(o)var
@@ -2101,22 +2106,22 @@ c=c[2],f=i[1];continue}var
 p=i}else
 var
 p=b;return p}return[0,f]}}function
-nO(c,b,a){var
+nP(c,b,a){var
 e=ax(0,a);return d(function(a){return m(a,b)?aO(c):t},e)}function
-nP(c,b,a){if(b){if(a){var
-d=nP(c,b[2],a[2]);return w(aB(b[1],c,a[1]),d)}return t}return t}function
-nQ(b,j){switch(j){case
+nQ(c,b,a){if(b){if(a){var
+d=nQ(c,b[2],a[2]);return w(aB(b[1],c,a[1]),d)}return t}return t}function
+nR(b,j){switch(j){case
 0:var
 d=aX(b[2],b[1]),e=b[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
 f=aX(b[1],b[2]),g=b[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
 c=dQ(G(b[1],b[2]),a),h=aX(c,b[2]),i=aX(b[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
 fS(d,c,a){if(a)var
-e=a[1],g=fS(d,[0,c],a[2]),b=y(aE,mM(function(a){return m(a[1],c)},d)),h=b?nQ(e,b[1])[1]:e,f=[0,h,g];else
+e=a[1],g=fS(d,[0,c],a[2]),b=y(aE,mN(function(a){return m(a[1],c)},d)),h=b?nR(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}function
-nR(a,b){return d(function(a){var
-c=a[2];return nQ(q(a[1],b,t),c)[2]},a)}function
+nS(a,b){return d(function(a){var
+c=a[2];return nR(q(a[1],b,t),c)[2]},a)}function
 hs(i,b,f,a){function
 e(a){return aq(b,a[1])}var
 h=0,j=R(t);function
@@ -2124,12 +2129,12 @@ c(f,e,a,b){if(a){var
 h=function(a){return aq(f,q(e,a[2],j))},k=d(h,b[1]),l=h(b[2]),m=c(f,[0,e],a[2],b),n=a[1];return g(d(function(a){var
 b=r(i,a,l);return[0,d(function(b){return r(i,a,b)},k),b]},n),m)}return a}var
 k=c(b,h,f,a),l=e(a[2]);return[0,[0,d(e,a[1]),l],k]}var
-vy=R(t);function
-nS(e,d,c){if(d){var
-f=q(e,c[2],vz),a=f?f[1]:[0,vy];if(a)var
-b=nS([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+vz=R(t);function
+nT(e,d,c){if(d){var
+f=q(e,c[2],vA),a=f?f[1]:[0,vz];if(a)var
+b=nT([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return vA}function
+g=a;return g}return vB}function
 cY(b,a){return ag(function(a){return m(b,a)},a)}function
 cZ(d,b,a){if(b)if(a)var
 e=a[1],f=b[1],c=[0,ct(function(b,a){return[0,aK(d,b,a)]},f,e)];else
@@ -2139,7 +2144,7 @@ var
 c=b;return c}function
 cx(b,a){return bt(b,eT(a))}function
 ht(f,e,d,c,b){if(e)if(d)if(c)if(b)var
-g=e[1],h=ht(f,e[2],d[2],c[2],b[2]),a=[0,LD(f,g[1],g[2],d[1],c[1],b[1]),h];else
+g=e[1],h=ht(f,e[2],d[2],c[2],b[2]),a=[0,LE(f,g[1],g[2],d[1],c[1],b[1]),h];else
 var
 a=b;else
 var
@@ -2148,29 +2153,29 @@ var
 a=d;else
 var
 a=e;return a}function
-bU(b,a){return q(a,b[2],nT)}function
-nU(d,b,a,c){if(m(a,c)){var
+bU(b,a){return q(a,b[2],nU)}function
+nV(d,b,a,c){if(m(a,c)){var
 f=bU(b,a),e=function(a){return eM(d,a)};return y(function(a){return y(e,a)},f)}var
 g=bU(b,c);return cZ(d,bU(b,a),g)}function
-nV(b,a){return q(a,d(ap,b),0)}function
-nW(a){if(a){var
-b=a[1],c=nW(a[2]);return g(d(function(a){return[0,b,a]},a),c)}return a}function
-hu(a,b){var
-c=ax(0,f(a));return nW(aN(function(c){return cY(nV(a,c),b)},c))}function
+nW(b,a){return q(a,d(ap,b),0)}function
 nX(a){if(a){var
+b=a[1],c=nX(a[2]);return g(d(function(a){return[0,b,a]},a),c)}return a}function
+hu(a,b){var
+c=ax(0,f(a));return nX(aN(function(c){return cY(nW(a,c),b)},c))}function
+nY(a){if(a){var
 d=a[1],b=d?d[1]:[0,R(t)];if(b)var
-c=nX(a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+c=nY(a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return vB}function
+e=b;return e}return vC}function
 fT(h,a,e,c){var
-b=nR(a,c),f=hu(a,e);return g(b,d(function(a){if(m(a[1],a[2])){var
+b=nS(a,c),f=hu(a,e);return g(b,d(function(a){if(m(a[1],a[2])){var
 c=q(a[1],b,0);if(c)var
 e=c[1],f=[0,ak(r(h,e,e)),0];else
 var
 f=c;return f}var
 g=q(a[1],b,0);return x(function(c){var
 e=q(a[2],b,0);return d(function(a){return r(h,c,a)},e)},g)},f))}function
-nY(b,c,i,p,o,g,n){var
+nZ(b,c,i,p,o,g,n){var
 e=a4(c);return k(function(e){var
 f=h(n,e);if(f){var
 q=r(b,o,f[1]),j=B(K(b,a),q),s=i?B(j,aq(e,i[1])):j,k=function(a){function
@@ -2179,21 +2184,21 @@ g=d(function(a){return d(f,a)},p);return aV(b,c,aL(X([0,s,0],c),g))},l=k(ak(g));
 m=l}else
 var
 m=f;return m},e)}function
-nZ(c,b,a){if(a){var
+n0(c,b,a){if(a){var
 d=a[2];if(c){var
-f=nZ(c[1],b,d);return[0,a[1],f]}var
+f=n0(c[1],b,d);return[0,a[1],f]}var
 e=[0,b,d]}else
 var
 e=a;return e}function
 eW(a,g){var
 b=aN(function(d){var
 c=q(d,a,t),b=D(c[1],e),f=b?D(e,c[2]):b;return J(f)},g);if(b){if(b[2])return a;var
-f=b[1],c=q(f,a,t),d=I(e,c[1])?c[1]:c[2];return nZ(f,[0,d,d],a)}return a}function
-n0(c,a){if(a)var
-b=a[2],f=n0(c,b),g=b?b[1]:d(uN,c),e=[0,[0,a[1],g],f];else
+f=b[1],c=q(f,a,t),d=I(e,c[1])?c[1]:c[2];return n0(f,[0,d,d],a)}return a}function
+n1(c,a){if(a)var
+b=a[2],f=n1(c,b),g=b?b[1]:d(uO,c),e=[0,[0,a[1],g],f];else
 var
 e=a;return e}function
-jG(a){return a?n0(a[1],a):a}function
+jG(a){return a?n1(a[1],a):a}function
 dv(c,d,b,a){if(d){var
 e=d[1];if(a){var
 f=dv(c,e,b,a[2]);return[0,a[1],f]}return[0,c,dv(c,e,b,0)]}return a?[0,b,a[2]]:[0,b,0]}function
@@ -2207,23 +2212,23 @@ f=c;return f}function
 dw(d,c,b,a){return dv(t,c,du(d,a,b),a)}function
 jH(a,f,e,b,d,c){var
 g=ax(0,b);return an(function(g,c){var
-h=dw(a,f,e,nO(a,g,b));return aL(c,fP(a,N(d),h))},c,g)}function
+h=dw(a,f,e,nP(a,g,b));return aL(c,fP(a,N(d),h))},c,g)}function
 jI(b,e,c,j,i,h,g,f){var
 k=dw(b,e,c,d(function(a){return K(b,E(h,a))},i));return aL(f,hv(b,dw(b,e,c,d(function(c){return aB(c,G(g,a),aO(b))},j)),k))}function
 jJ(a,h,g,q,f,p,o,n){var
 e=p,c=o,b=n;for(;;){if(e){if(c){var
 k=c[1],l=k[1],i=e[1],m=dw(a,h,g,d(function(b){return aB(b,f,aO(a))},i)),r=bS(l[2]),s=dw(a,h,g,cv(f,l[1],r,i)),t=aL(b,hv(a,d(ak,m),s)),u=k[2],j=fR(a,q,m,d(function(c){return function(b){return dw(a,h,g,d(ak,cv(f,b[1],b[2],c)))}}(i),u),t);if(j){var
 e=e[2],c=c[2],b=j[1];continue}return j}return[0,b]}return[0,b]}}function
-n1(g,b,f,a){if(a)var
+n2(g,b,f,a){if(a)var
 c=a[2],d=a[1],h=q(b,c,t),e=[0,d,dv(t,b,w(r(g,f,d),h),c)];else
 var
 e=a;return e}function
-n2(a,b,m,D,C,B){var
+n3(a,b,m,D,C,B){var
 i=C,h=B;for(;;){if(i){var
 n=i[1],o=n[1],j=o[2],p=n[2],c=dw(a,b,m,o[1]);if(p){var
 s=I(e,j[1]);if(s)var
 E=aO(a),f=bq(N(bQ(q(b,c,t),E,j))),k=bq(j),v=dv(t,b,f,0),x=q(b,c,t),y=aL(h,hv(a,v,dv(t,b,w(ak(r(a,f,k)),x),c))),z=q(b,c,t),A=[0,[0,k,dv(t,b,w(r(a,f,k),z),c)],y],F=d(function(e){return function(c){var
-d=dw(a,b,m,c[1]);return n1(a,b,e,[0,ak(c[2]),d])}}(f),p),G=d(function(a){return t},c),g=fR(a,[0,t,D],n1(a,b,f,[0,aO(a),G]),F,A);else
+d=dw(a,b,m,c[1]);return n2(a,b,e,[0,ak(c[2]),d])}}(f),p),G=d(function(a){return t},c),g=fR(a,[0,t,D],n2(a,b,f,[0,aO(a),G]),F,A);else
 var
 g=s}else
 var
@@ -2236,7 +2241,7 @@ u=g;return u}return[0,h]}}function
 jK(c,b,a){if(b){var
 d=a?[0,c,jK(c,b[1],a[2])]:a;return d}return a}function
 jL(b,a){return an(function(c,a){return w(Q(b,c),a)},t,a)}function
-n3(b,a,d,c){function
+n4(b,a,d,c){function
 e(d,c){return B(d,r(b,a,c))}function
 f(c){return N(r(b,a,c))}return aJ(function(a){return a},f,e,d,c)}function
 jM(a,c,b){if(c)if(b)var
@@ -2246,20 +2251,20 @@ var
 f=b;else
 var
 f=c;return f}function
-n4(b,e,f,a){if(a){var
-c=a[1],i=a[2],j=n4(b,e,aY(f),i);if(c)var
+n5(b,e,f,a){if(a){var
+c=a[1],i=a[2],j=n5(b,e,aY(f),i);if(c)var
 k=c[2],l=d(function(a){return r(b,e,N(a))},k),m=c[1],n=f?t:aO(b),g=[0,r(b,e,B(n,m)),l];else
 var
 g=c;var
 h=[0,g,j]}else
 var
 h=a;return h}function
-vG(a,b,o,c,k,j,i){if(H(j[1],e))return jE(a,b,c,k,i);var
+vH(a,b,o,c,k,j,i){if(H(j[1],e))return jE(a,b,c,k,i);var
 l=bq(j);function
 p(g){if(I(e,j[1]))return[0,i];var
-c=h(g,0),k=f(b),d=m(f(c),k),n=d?[0,aL(i,n4(a,l,o,c))]:d;return n}var
+c=h(g,0),k=f(b),d=m(f(c),k),n=d?[0,aL(i,n5(a,l,o,c))]:d;return n}var
 q=bP(a,du(a,c,b));if(q)var
-n=q[1],s=jK(t,o,b),z=d(function(b){return r(a,b,n)},s),u=n3(a,r(a,r(a,ak(jL(a,s)),n),n),z,c),A=p(function(b){return jM(a,c,u)}),x=function(c,b){return w(c,r(a,l,b))},y=function(b){return r(a,l,b)},g=A,v=aJ(function(a){return a},y,x,k,u);else
+n=q[1],s=jK(t,o,b),z=d(function(b){return r(a,b,n)},s),u=n4(a,r(a,r(a,ak(jL(a,s)),n),n),z,c),A=p(function(b){return jM(a,c,u)}),x=function(c,b){return w(c,r(a,l,b))},y=function(b){return r(a,l,b)},g=A,v=aJ(function(a){return a},y,x,k,u);else
 var
 g=p(function(a){return X([0,t,0],f(b))}),v=k;return g?jE(a,b,c,v,g[1]):g}function
 hw(a,g,z,S,c,R,P){var
@@ -2267,7 +2272,7 @@ i=R,h=P;for(;;){if(i){var
 A=i[1],n=A[2],j=A[1];if(z&&I(e,n[1])){var
 f=z[1],o=bq(n),k=aL(h,fP(a,o,f)),C=0;if(fQ(c)||fQ(j))C=1;else{var
 l=eV(a,g,j),D=aO(a),E=eV(a,g,c),b=bQ([0,eV(a,g,c),E],D,[0,l,l])[1],p=I(e,l),q=p?I(e,b):p;if(q){var
-F=ak(hd(a,[0,b,b])),G=function(b){return function(d,c){return B(r(a,[0,b,b],d),c)}}(b),H=[0,b,b],m=aJ(function(c){return function(b){return r(a,c,b)}}(H),N,G,j,c),J=jL(a,f),K=w(aO(a),J),L=aO(a),s=bq(bQ(du(a,m,f),L,K)),M=Q(a,s),t=w(jL(a,n3(a,s,m,f)),M),u=I(e,t[1]);if(u)var
+F=ak(hd(a,[0,b,b])),G=function(b){return function(d,c){return B(r(a,[0,b,b],d),c)}}(b),H=[0,b,b],m=aJ(function(c){return function(b){return r(a,c,b)}}(H),N,G,j,c),J=jL(a,f),K=w(aO(a),J),L=aO(a),s=bq(bQ(du(a,m,f),L,K)),M=Q(a,s),t=w(jL(a,n4(a,s,m,f)),M),u=I(e,t[1]);if(u)var
 v=bS(B(F,bQ(o,aO(a),t))),O=I(e,v[1])?aL(k,fP(a,v,m)):k,x=[0,O];else
 var
 x=u;var
@@ -2277,56 +2282,56 @@ y=q;var
 d=y}if(C)var
 d=[0,k]}else
 var
-d=vG(a,g,S,c,j,n,h);if(d){var
+d=vH(a,g,S,c,j,n,h);if(d){var
 i=i[2],h=d[1];continue}return d}return[0,h]}}function
-n5(a,c){return an(function(b,a){return m(b[1],c)?G(b[2],a):a},e,a)}function
+n6(a,c){return an(function(b,a){return m(b[1],c)?G(b[2],a):a},e,a)}function
 jN(e,d,a){return an(function(b,a){return w(an(function(a,b){var
 c=q(a[1],d,t);return w(aB(a[2],e,c),b)},t,b),a)},t,a)}function
-n6(c,j,i,h,a,f,b){if(a){var
+n7(c,j,i,h,a,f,b){if(a){var
 k=function(a){var
-b=R(t);return aq(i,q(h,a[2],b))},m=d(k,b[1]),n=k(b[2]),l=bH(e,f),o=by(f),p=n6(c,j,i,[0,h],a[2],o,b),s=a[1];return g(d(function(a){var
+b=R(t);return aq(i,q(h,a[2],b))},m=d(k,b[1]),n=k(b[2]),l=bH(e,f),o=by(f),p=n7(c,j,i,[0,h],a[2],o,b),s=a[1];return g(d(function(a){var
 b=H(l,e)?t:aB(l,j,a),f=r(c,a,n);return[0,[0,d(function(b){return r(c,a,b)},m),f],b]},s),p)}return a}function
-n7(h,g,b,f,e,a){function
+n8(h,g,b,f,e,a){function
 c(a){return aq(b,a[1])}var
-i=n6(h,g,b,0,f,e,a),j=c(a[2]);return[0,[0,d(c,a[1]),j],i]}function
-n8(a){var
+i=n7(h,g,b,0,f,e,a),j=c(a[2]);return[0,[0,d(c,a[1]),j],i]}function
+n9(a){var
 b=H(a[1][1],e),c=b?H(a[1][2],e):b,d=c?H(a[2][1],e):c,f=d?H(a[2][2],e):d;if(f){if(a[3])return 0;var
 g=1}else
 var
 g=f;return g}function
-n9(b,a){var
+n_(b,a){var
 c=M(ax(0,f(b)),b);return k(function(b){var
 c=H(b[2],e);if(c)return c;var
 d=[0,a[2],a[1]];return ag(function(a){var
-c=R(t);return J(n8(q(b[1],a[2],c)))},d)},c)}function
-n_(g,f,c){var
+c=R(t);return J(n9(q(b[1],a[2],c)))},d)},c)}function
+n$(g,f,c){var
 b=g,a=f;for(;;){if(b){var
-d=b[2],e=n_(d,a,c);if(e){var
+d=b[2],e=n$(d,a,c);if(e){var
 i=[0,b[1],a],b=d,a=i;continue}return e}return h(c,a)}}function
 fU(a){return typeof
 a==="number"?0:1}function
-n$(a){if(typeof
+oa(a){if(typeof
 a!=="number"&&1===a[0])return m(a[1],a[2]);return 0}function
-oa(b,a){var
+ob(b,a){var
 c=w(b[2],a[2]),d=a[1],e=b[1];function
 f(a){return a}return[0,aJ(function(a){return a},f,w,e,d),c]}function
-ob(g,f,c){var
+oc(g,f,c){var
 b=g,a=f;for(;;){if(a){var
-d=a[2],e=ob(b,d,c);if(e){var
-b=oa(b,a[1]),a=d;continue}return e}return h(c,b)}}function
-oc(a,b){if(a)var
-d=aw(a,b),e=oc(a[1],d),c=[0,ao(a,b),e];else
+d=a[2],e=oc(b,d,c);if(e){var
+b=ob(b,a[1]),a=d;continue}return e}return h(c,b)}}function
+od(a,b){if(a)var
+d=aw(a,b),e=od(a[1],d),c=[0,ao(a,b),e];else
 var
 c=a;return c}function
 jO(b,i,p,h,e,v,g,c,o){if(g){var
-a=f(i),q=oc(a,d(function(a){return aB(a,v,aO(b))},g)),w=g0(a,P(a,vJ)),r=m(g0(vK,f(g)),w),s=r?m(f(e),a):r;if(s)var
-j=aN(function(a){return fU(a[1])},c),l=mN(g2,x(function(b){var
+a=f(i),q=od(a,d(function(a){return aB(a,v,aO(b))},g)),w=g0(a,P(a,vK)),r=m(g0(vL,f(g)),w),s=r?m(f(e),a):r;if(s)var
+j=aN(function(a){return fU(a[1])},c),l=mO(g2,x(function(b){var
 a=b[1];return typeof
-a==="number"?0:0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]},j)),u=d(aE,aN(function(a){return n$(a[1])},j)),n=ae(f(l),vI),y=n?n_(l,0,function(f){function
+a==="number"?0:0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]},j)),u=d(aE,aN(function(a){return oa(a[1])},j)),n=ae(f(l),vJ),y=n?n$(l,0,function(f){function
 g(c){var
 d=jK([0,t,0],h,X([0,c[2],0],a));return aV(b,a,aL(aL(q,jM(b,e,c[1])),d))}var
-c=[0,0,t];return ob(an(function(b,g){var
-h=b[1],e=fU(h),m=e?J(n$(h)):e;if(m){var
+c=[0,0,t];return oc(an(function(b,g){var
+h=b[1],e=fU(h),m=e?J(oa(h)):e;if(m){var
 a=b[1];if(typeof
 a==="number")var
 c=1;else
@@ -2336,23 +2341,23 @@ var
 k=cY(a[2],f),c=cp(cY(a[1],f),k);if(c)var
 i=b[2];else
 var
-j=b[2],l=N(j[2]),i=[0,d(N,j[1]),l];return oa(i,g)}return g},c,j),u,g)}):n,k=y;else
+j=b[2],l=N(j[2]),i=[0,d(N,j[1]),l];return ob(i,g)}return g},c,j),u,g)}):n,k=y;else
 var
 k=s;if(k){var
 z=aL(o,d(function(a){return d(N,a)},q));return hw(b,i,p,h,e,d(aE,aN(function(a){return J(fU(a[1]))},c)),z)}return k}return aN(function(a){return fU(a[1])},c)?0:hw(b,i,p,h,e,d(aE,c),o)}function
-od(c,a,d,b){if(a){var
-g=od(c,a[2],[0,d],b);if(c)var
+oe(c,a,d,b){if(a){var
+g=oe(c,a[2],[0,d],b);if(c)var
 h=[0,b[2],b[1]],e=k(function(a){var
-b=R(t);return n8(q(d,a[2],b))},h)?0:a[1];else
+b=R(t);return n9(q(d,a[2],b))},h)?0:a[1];else
 var
 e=c;var
 f=[0,e,g]}else
 var
 f=a;return f}function
-oe(b,a){return fU(b)?ao(vN,a):a}function
+of(b,a){return fU(b)?ao(vO,a):a}function
 jP(e,d,c){var
-a=q(c,e,vO),b=2<=a[2]?1:0;return b?cY(a[1],d):b}function
-of(a){if(a)var
+a=q(c,e,vP),b=2<=a[2]?1:0;return b?cY(a[1],d):b}function
+og(a){if(a)var
 b=a[1],c=[0,b[1],[0,b[2],0]];else
 var
 c=a;return c}function
@@ -2362,7 +2367,7 @@ ad(a){if(a){var
 b=a[1];if(b)var
 c=ad(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return vP}function
+d=b;return d}return vQ}function
 fV(b,a){if(a){var
 h=a[1],n=h[1],c=ad(d(function(a){return q(a,b,0)},n));if(c){var
 f=q(h[2],b,0);if(f){var
@@ -2375,17 +2380,17 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return vQ}function
+m=c;return m}return vR}function
 c0(d,c,b){var
 a=fV(d,c);return a?h(b,a[1]):a}function
 c1(a,b){return k(function(c){var
 a=q(c,b,0),d=a?1:a;return d},a)}function
 hx(b,a){return b?hn(a,b[1]):a}function
-jR(b,a){return b?nt(a,b[1]):a}function
+jR(b,a){return b?nu(a,b[1]):a}function
 jS(h,g,b,f){var
 a=q(f,h,0);if(a){var
 c=a[1];if(b){var
-i=nt(c,b[1]),d=a4(g);return k(function(a){return D(e,aq(a,i)[1])},d)}return D(e,c[2][1])}return a}function
+i=nu(c,b[1]),d=a4(g);return k(function(a){return D(e,aq(a,i)[1])},d)}return D(e,c[2][1])}return a}function
 jT(f,e,b){function
 c(b){return aB(b,e,K(f,a))}if(b){var
 g=d(c,b[2]);return[0,c(b[1]),t,g]}return R(t)}function
@@ -2412,7 +2417,7 @@ aM=b[2],aN=b[1],aO=hx(j,R(u));return c0(i,ab,function(a){return fM(c,h,aO,aN,aM,
 2:var
 af=c1(E,i);if(af){var
 ag=H(u[1],e),ah=ag?H(u[2],e):ag;if(ah){var
-aP=b[2],aQ=b[1];return c0(i,l,function(a){return ns(c,h,j,aQ,aP,a)})}var
+aP=b[2],aQ=b[1];return c0(i,l,function(a){return nt(c,h,j,aQ,aP,a)})}var
 ai=ah}else
 var
 ai=af;return ai}return 0;case
@@ -2444,7 +2449,7 @@ L=hy(i,g[4]);if(L){var
 am=L[1],ao=J[1],ap=I[1],ar=F[1],o=b[2],v=g[5],a0=b[1];if(o){var
 p=o[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-aH=[0,o[1],p[1],q[1]],s=ny(function(f){function
+aH=[0,o[1],p[1],q[1]],s=nz(function(f){function
 g(b){return aB(b,a0,K(c,a))}if(f){var
 b=d(g,f[2]),e=g(f[1]),h=hg(b),i=G(e[2],h),j=hg(b);return[0,e,[0,aX(e[1],j),i],b]}return R(t)},aH),P=k(function(a){return m(f(a),[0,h])},o),S=P?hp(c,h,j,v,s,ar,ao):P,T=S?hp(c,h,j,v,s,ar,am):S,U=T?hp(c,h,j,v,s,ap,ao):T;if(U)return hp(c,h,j,v,s,ap,am);var
 V=U}else
@@ -2477,21 +2482,21 @@ var
 g=b;return g},i=j?j[1]:R(t);return jA(h,jB(i,e),g)}return d})}return 0;case
 8:if(typeof
 b==="number"&&5<=b){var
-a3=g[3],a4=g[2],a5=function(a){return ns(c,h,j,a4,a3,a)};return c0(i,g[1],a5)}return 0;case
+a3=g[3],a4=g[2],a5=function(a){return nt(c,h,j,a4,a3,a)};return c0(i,g[1],a5)}return 0;case
 11:if(typeof
 b==="number"&&!b){var
 M=fW(i,g[1]);if(M){var
 a6=g[2],N=ad(d(function(a){return fW(i,a)},a6));if(N){var
-a7=of(g[5]),O=fW(i,[0,g[3],[0,g[4],a7]]);if(O){var
+a7=og(g[5]),O=fW(i,[0,g[3],[0,g[4],a7]]);if(O){var
 x=O[1];if(x){var
 z=x[2];if(z){var
 A=z[2],ax=fW(i,g[6]);if(ax){if(A)var
 C=A[2],a8=C?C[2]?0:[0,[0,A[1][2],C[1]]]:C,D=a8;else
 var
 D=A;var
-ay=z[1][2],az=x[1][2],aA=N[1],a9=M[1],Y=nY(c,h,j,aA,az,ay,function(d){return[0,eR(c,an(function(b,a){return w(Q(c,aq(d,b)),a)},t,a9))]});if(Y)var
+ay=z[1][2],az=x[1][2],aA=N[1],a9=M[1],Y=nZ(c,h,j,aA,az,ay,function(d){return[0,eR(c,an(function(b,a){return w(Q(c,aq(d,b)),a)},t,a9))]});if(Y)var
 Z=Y;else{if(D){var
-_=D[1],$=_[2],aa=_[1];return nY(c,h,j,aA,az,ay,function(f){var
+_=D[1],$=_[2],aa=_[1];return nZ(c,h,j,aA,az,ay,function(f){var
 b=bq($[1]),a=cr(c,B(aa,Q(c,b)));if(a){var
 d=bP(c,a[1]),e=B(aa,r(c,b,aq(f,$)));return y(function(a){return r(c,e,a)},d)}return a})}var
 Z=D}return Z}var
@@ -2510,37 +2515,37 @@ aF=N;var
 aG=aF}else
 var
 aG=M;return aG}return 0;default:return 0}}function
-og(c,a){var
+oh(c,a){var
 e=q(a[1],c,0);if(e)var
 g=a[2][2],b=ad(d(function(a){var
 b=q(a[2],c,0);return y(function(b){return[0,a[1],b]},b)},g)),h=b?[0,[0,a[2][1],b[1]]]:b,f=h;else
 var
 f=e;return f}function
-oh(b,a){return g(b,cQ(a[1]))}function
-oi(b,C,A,v,u,ax,o,n,s,p,l){switch(p[0]){case
+oi(b,a){return g(b,cQ(a[1]))}function
+oj(b,C,A,v,u,ax,o,n,s,p,l){switch(p[0]){case
 9:var
 a9=p[2],a_=p[1];if(typeof
 l!=="number"&&9===l[0]){var
 ay=l[2],M=l[1],a$=l[3];if(0<a1(l[4]))return eX(b,A,v,u,o,f(n),s,p,l);var
-ba=bC(g(u,x(function(a){return g(a[1],[0,a[2],0])},v)),C),aT=d(R,ax),ab=dk(0,b_(b,hr(0,n,a_),aT),ba,C),az=m(f(n),vR),aA=az?c1(u,ab):az;if(aA){var
+ba=bC(g(u,x(function(a){return g(a[1],[0,a[2],0])},v)),C),aT=d(R,ax),ab=dk(0,b_(b,hr(0,n,a_),aT),ba,C),az=m(f(n),vS),aA=az?c1(u,ab):az;if(aA){var
 O=fV(ab,v);if(O){var
 P=fV(o,v);if(P){var
-S=ad(d(function(a){return og(o,a)},a9));if(S){var
-T=nB(O[1]);if(T){var
+S=ad(d(function(a){return oh(o,a)},a9));if(S){var
+T=nC(O[1]);if(T){var
 aD=P[1],bb=S[1],bc=T[1],ac=eR(b,an(function(f,i){function
 a(b,d){var
 a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return bR(q(d,c[3],t))}function
 c(a){var
-b=h(a,vj),c=bx(h(a,vk),b);return bx(h(a,0),c)}var
+b=h(a,vk),c=bx(h(a,vl),b);return bx(h(a,0),c)}var
 d=c(function(b){var
-c=a(vl,b),d=a(vm,b);return G(G(a(0,b),d),c)}),g=[0,d,d],e=c(function(b){var
-c=a(b,vn),d=a(b,vo);return G(G(a(b,0),d),c)});return w(i,Q(b,eR(b,r(b,[0,e,e],g))))},t,bc)),D=aB(a$,M,K(b,a)),af=I(e,B(D,ac)[1]),ag=af?m(f(ay),vu):af,ah=ag?m(f(aD),vv):ag;if(ah){var
+c=a(vm,b),d=a(vn,b);return G(G(a(0,b),d),c)}),g=[0,d,d],e=c(function(b){var
+c=a(b,vo),d=a(b,vp);return G(G(a(b,0),d),c)});return w(i,Q(b,eR(b,r(b,[0,e,e],g))))},t,bc)),D=aB(a$,M,K(b,a)),af=I(e,B(D,ac)[1]),ag=af?m(f(ay),vv):af,ah=ag?m(f(aD),vw):ag;if(ah){var
 E=bP(b,D);if(E){var
-aU=ak(r(b,ac,E[1])),aW=B(K(b,a),aU),aX=a4(vw);return k(function(i){var
-g=d(function(a){return nC(b,i,a[1],a[2])},bb),p=h(aC(function(a){return aq(i,a)}),aD),F=s?aq(i,s[1]):t,O=Q(b,aW),q=Q(b,D),o=d0(M,d1(M,ay,K(b,a),p)),c=aL(X([0,N(F),0],vp),o);if(g){var
+aU=ak(r(b,ac,E[1])),aW=B(K(b,a),aU),aX=a4(vx);return k(function(i){var
+g=d(function(a){return nD(b,i,a[1],a[2])},bb),p=h(aC(function(a){return aq(i,a)}),aD),F=s?aq(i,s[1]):t,O=Q(b,aW),q=Q(b,D),o=d0(M,d1(M,ay,K(b,a),p)),c=aL(X([0,N(F),0],vq),o);if(g){var
 e=g[2];if(e){var
 f=e[2];if(f){if(f[2])return 0;var
-C=e[1],E=g[1],I=f[1],j=aV(b,vr,aL(X([0,N(q),0],vq),c));if(j)return k(function(D){var
+C=e[1],E=g[1],I=f[1],j=aV(b,vs,aL(X([0,N(q),0],vr),c));if(j)return k(function(D){var
 J=B(O,F),K=D[2]?C:N(C),L=D[1]?E:N(E),o=0;if(c){var
 a=c[1],l=0;if(a){var
 d=a[2],m=0;if(d){var
@@ -2580,7 +2585,7 @@ var
 z=a;if(!l){var
 A=z;o=1}}else{var
 A=c;o=1}if(o)var
-k=A;return aV(b,vt,k)},vs);var
+k=A;return aV(b,vu,k)},vt);var
 l=j}else
 var
 l=f;var
@@ -2608,11 +2613,11 @@ aI=aA;return aI}return eX(b,A,v,u,o,f(n),s,p,l);case
 10:var
 i=p[1];if(typeof
 l!=="number"&&9===l[0]){var
-j=f(n),a3=bC(oh(u,i),C),a5=d(R,ax),a6=i[7],a7=i[6],a8=f(n),aw=dk(0,b_(b,nK(i[8],a8,n,a7,a6),a5),a3,C),aJ=ae(i[8],j),aK=aJ?m(f(i[1]),j):aJ;if(aK)var
+j=f(n),a3=bC(oi(u,i),C),a5=d(R,ax),a6=i[7],a7=i[6],a8=f(n),aw=dk(0,b_(b,nL(i[8],a8,n,a7,a6),a5),a3,C),aJ=ae(i[8],j),aK=aJ?m(f(i[1]),j):aJ;if(aK)var
 bd=i[1],U=k(function(a){return m(f(a),j)},bd);else
 var
 U=aK;if(U)var
-be=oh(u,i),V=k(function(b){var
+be=oi(u,i),V=k(function(b){var
 a=q(b,aw,0),c=a?1:a;return c},be);else
 var
 V=U;if(V)var
@@ -2622,28 +2627,28 @@ var
 W=V;if(W){var
 bg=i[1],Y=ad(d(function(a){return fW(aw,a)},bg));if(Y){var
 Z=fV(o,i[2]);if(Z){var
-bh=i[4],_=ad(d(function(a){return og(o,a)},bh));if(_){var
-$=l[4],aM=l[2],aa=l[1],aN=_[1],aO=Z[1],aP=Y[1],y=i[8],bi=l[3],aj=nE(b,j,y,aP),F=aB(bi,aa,K(b,a)),al=mH($,e);if(al)var
+bh=i[4],_=ad(d(function(a){return oh(o,a)},bh));if(_){var
+$=l[4],aM=l[2],aa=l[1],aN=_[1],aO=Z[1],aP=Y[1],y=i[8],bi=l[3],aj=nF(b,j,y,aP),F=aB(bi,aa,K(b,a)),al=mI($,e);if(al)var
 H=al;else
 var
-au=mI($,c(2,c(2,c(2,c(2,a))))),av=au?aF(0,y):au,H=av?aF(y,j):av;var
+au=mJ($,c(2,c(2,c(2,c(2,a))))),av=au?aF(0,y):au,H=av?aF(y,j):av;var
 am=H?I(e,B(F,aj)[1]):H,ao=am?m(f(aM),j):am,ap=ao?m(f(aO),j):ao;if(ap){var
 ar=J(i[5]);if(ar)var
 z=ar;else
 var
 at=k(function(c){var
 a=an(function(c,b){var
-a=bR(c[2]);return w([0,a,a],b)},t,c);return nL(b,i[6],a)},aP),z=at?k(function(c){var
+a=bR(c[2]);return w([0,a,a],b)},t,c);return nM(b,i[6],a)},aP),z=at?k(function(c){var
 d=c[2],a=an(function(a,d){var
-c=bR(a[2][2]);return w(r(b,a[1],[0,c,c]),d)},t,d);return nL(b,i[6],a)},aN):at}else
+c=bR(a[2][2]);return w(r(b,a[1],[0,c,c]),d)},t,d);return nM(b,i[6],a)},aN):at}else
 var
 z=ap;if(z){var
 L=bP(b,F);if(L){var
 aZ=ak(r(b,aj,L[1])),a0=B(K(b,a),aZ),a2=a4(j);return k(function(e){var
-r=d(function(a){return nC(b,e,a[1],a[2])},aN),x=h(aC(function(a){return aq(e,a)}),aO),u=s?aq(e,s[1]):t,z=Q(b,a0),A=Q(b,F),C=nF(j,y,i[9],$),l=d(function(a){var
-b=a[2];return[0,nG(C,a[1]),b]},x),v=d0(aa,d1(aa,aM,K(b,a),l)),c=aL(X([0,N(u),0],j),v),n=m(f(l),j),o=n?m(f(r),j):n,p=o?nI(j,c):o,q=p?aV(b,j,aL(X([0,N(A),0],j),c)):p;if(q){var
+r=d(function(a){return nD(b,e,a[1],a[2])},aN),x=h(aC(function(a){return aq(e,a)}),aO),u=s?aq(e,s[1]):t,z=Q(b,a0),A=Q(b,F),C=nG(j,y,i[9],$),l=d(function(a){var
+b=a[2];return[0,nH(C,a[1]),b]},x),v=d0(aa,d1(aa,aM,K(b,a),l)),c=aL(X([0,N(u),0],j),v),n=m(f(l),j),o=n?m(f(r),j):n,p=o?nJ(j,c):o,q=p?aV(b,j,aL(X([0,N(A),0],j),c)):p;if(q){var
 w=a4(aY(j));return k(function(a){var
-d=B(z,u);return aV(b,[0,j],nH(c,nJ(g(a,vx),r),d))},w)}return q},a2)}var
+d=B(z,u);return aV(b,[0,j],nI(c,nK(g(a,vy),r),d))},w)}return q},a2)}var
 as=L}else
 var
 as=z;return as}var
@@ -2694,7 +2699,7 @@ b=d(aE,a[2][2]);return[0,a[1],b]},l);return g(bJ(c),m);case
 b=a[1],n=b[4],o=x(function(a){var
 b=d(aE,a[2][2]);return[0,a[1],b]},n),p=g(b[3],o);return g(bJ(b[2]),p);case
 11:var
-q=a[6],r=g(of(a[5]),q),s=[0,a[3],[0,a[4],r]],t=g(cQ(a[2]),s);return g(a[1],t);case
+q=a[6],r=g(og(a[5]),q),s=[0,a[3],[0,a[4],r]],t=g(cQ(a[2]),s);return g(a[1],t);case
 4:case
 8:return bJ(a[1]);default:return e}}function
 d3(d){var
@@ -2703,7 +2708,7 @@ b=a[2],e=a[1],c=J(ag(function(b){return function(a){return m(b,a)}}(e),b));if(c)
 a=b;continue}return c}return 1}}function
 fX(a,i,h,n,s,e,b,c){var
 j=d(R,fS(b,0,h));if(c){var
-k=d(function(a){return cY(a[1],c)?a[1]:f(h)},b),u=dk(vV,function(b){return jD(a,s,j,k,b)},e,i),t=hu(b,c),aJ=d(ap,b),aL=d(R,h),v=dk(vW,function(b){var
+k=d(function(a){return cY(a[1],c)?a[1]:f(h)},b),u=dk(vW,function(b){return jD(a,s,j,k,b)},e,i),t=hu(b,c),aJ=d(ap,b),aL=d(R,h),v=dk(vX,function(b){var
 g=jD(a,s,aL,aJ,b9(ap,b)),f=0;switch(b[0]){case
 3:var
 af=function(b,a){return bt},m=af,h=b[2],l=b[1];f=1;break;case
@@ -2734,13 +2739,13 @@ e=S;break;case
 8:var
 C=b[1],D=C[1][1];if(D){var
 ax=D[1],u=function(d,c,b){var
-e=bs(a,ax,b),f=bt(nU(a,C[1],d,c),e);return bs(a,dt(a),f)},i=C;f=2}else
+e=bs(a,ax,b),f=bt(nV(a,C[1],d,c),e);return bs(a,dt(a),f)},i=C;f=2}else
 var
 e=D;break;case
 9:var
 E=g[1];if(E){var
 ay=E[1],az=aK(a,dt(a),ay),aA=function(d,c,b){var
-e=nU(a,g,d,c);return d2(a,az,cx(b,bs(a,dt(a),e)))},u=aA,i=b[1];f=2}else
+e=nV(a,g,d,c);return d2(a,az,cx(b,bs(a,dt(a),e)))},u=aA,i=b[1];f=2}else
 var
 e=E;break;case
 10:var
@@ -2766,19 +2771,19 @@ e=d(function(a){return 0},t)}switch(f){case
 ag=h[2],ah=h[2],ai=l[2],e=ht(function(d,c,b,a,e){return gE(m,d,c,b,a)},t,ai,ah,ag);break;case
 2:var
 al=i[2],am=i[2],an=i[2],e=ht(function(c,b,a,e,d){return fm(u,c,b,a)},t,an,am,al);break}return[0,g,e]},e,i);return function(h){var
-i=q(h,u,vT),j=q(h,n,0);if(j){var
+i=q(h,u,vU),j=q(h,n,0);if(j){var
 e=i[1];if(e)var
-k=q(h,v,vU),o=ax(0,f(hu(b,c))),p=d(function(a){return q(a,k[2],nT)},o),r=ax(0,f(b)),a=nX(g(d(function(a){var
-d=cY(nV(b,a),c)?i:k[1];return bU(d,a)},r),p)),s=a?[0,[0,e[1],a[1]]]:a,l=s;else
+k=q(h,v,vV),o=ax(0,f(hu(b,c))),p=d(function(a){return q(a,k[2],nU)},o),r=ax(0,f(b)),a=nY(g(d(function(a){var
+d=cY(nW(b,a),c)?i:k[1];return bU(d,a)},r),p)),s=a?[0,[0,e[1],a[1]]]:a,l=s;else
 var
 l=e;var
 m=l}else
 var
 m=j;return m}}var
-l=dk(0,b_(a,s,j),e,i),m=d(ap,b),o=d(R,h),p=dk(vX,function(b){return jD(a,s,o,m,b)},e,i);return function(d){var
+l=dk(0,b_(a,s,j),e,i),m=d(ap,b),o=d(R,h),p=dk(vY,function(b){return jD(a,s,o,m,b)},e,i);return function(d){var
 e=q(d,n,0);if(e){var
 a=q(d,l,0);if(a)var
-c=nS(0,b,q(d,p,vS)),h=c?[0,[0,a[1],c[1]]]:c,f=h;else
+c=nT(0,b,q(d,p,vT)),h=c?[0,[0,a[1],c[1]]]:c,f=h;else
 var
 f=a;var
 g=f}else
@@ -2802,8 +2807,8 @@ var
 p=f;var
 r=p}else
 var
-r=c;return r}return vY}function
-vZ(c,T,j,aJ,z,y,q,S,Q,g,b,o,x,a){var
+r=c;return r}return vZ}function
+v0(c,T,j,aJ,z,y,q,S,Q,g,b,o,x,a){var
 i=f(S),aK=cX(0,S),aM=bC(eY(j,aJ,z,g,b),T),aN=fT(c,o,x,y),U=fX(c,T,y,q,aK,aM,o,x);function
 A(a){return d(function(a){return K(c,a)},a)}var
 aP=Q?Q[1]:R(t);function
@@ -2811,7 +2816,7 @@ V(a){return a?aV(c,i,a[1]):a}function
 s(f,e,d,b,a){var
 g=X([0,N(e),0],i);return V(jF(c,A(f),d,b,a,g))}function
 Y(d,b,a){var
-e=X([0,b,0],i);return V(nN(c,A(d),a,e))}var
+e=X([0,b,0],i);return V(nO(c,A(d),a,e))}var
 aQ=d(ap,o),Z=k(function(a){return aF(a,f(y))},aQ),_=Z?d3(d(ap,o)):Z;if(_)var
 $=fY(x,o),C=$?k(function(a){return m(f(a),i)},a):$;else
 var
@@ -2833,7 +2838,7 @@ ad=a;if(!aw)return ad;break;case
 ay=0;if(a){if(a[2])return 0;var
 aW=a[1],aY=b[2],aZ=b[1],ae=c1(z,q),az=0;if(ae){var
 af=H(E[1],e),ag=af?H(E[2],e):af;if(ag){var
-n=function(c,b,a){return s(aW,b,aZ,aY,d(nM,a))},l=j;O=1;ay=1;az=1}else
+n=function(c,b,a){return s(aW,b,aZ,aY,d(nN,a))},l=j;O=1;ay=1;az=1}else
 var
 ah=ag}else
 var
@@ -2890,7 +2895,7 @@ k=m(f(g),i),l=k?m(f(p),i):k;if(l){var
 t=d(ap,g),u=d0(L,d1(L,p,aO(c),t)),v=aL(hq(c,at,as,x,d(ap,g)),u),a=0,b=g,h=v,w=f(p);for(;;){if(b){var
 o=b[1][2],q=m(a,at),s=d(function(g,h){return function(e){var
 a=M(ax(0,f(p)),p);return d(function(a){var
-b=nP(L,a[2],e[1]);if(h&&m(a[1],g))return B(b,ak(r(c,as,e[2])));return b},a)}}(a,q),o),j=fR(c,y,nO(c,a,w),s,h);if(j){var
+b=nQ(L,a[2],e[1]);if(h&&m(a[1],g))return B(b,ak(r(c,as,e[2])));return b},a)}}(a,q),o),j=fR(c,y,nP(c,a,w),s,h);if(j){var
 a=[0,a],b=b[2],h=j[1];continue}var
 e=j}else
 var
@@ -2917,7 +2922,7 @@ var
 b=a;return b}var
 h=g(b);if(H(f,e)){var
 k=d(function(a){return t},b),l=b?[0,a,b[2]]:b;return[0,[0,[0,0,l],e],k]}var
-i=jm(G(mL(f),a)),m=d(function(a){return t},b);return[0,[0,[0,h,b],i],dv(t,h,K(j,cq(c(2,a),i)),m)]}function
+i=jm(G(mM(f),a)),m=d(function(a){return t},b);return[0,[0,[0,h,b],i],dv(t,h,K(j,cq(c(2,a),i)),m)]}function
 hB(g,P,o,an,x,v,n,O,M,h,b,l,u,am,L,al,I,G){var
 i=f(O),ao=cX(0,O),ar=bC(eY(o,an,x,h,b),P),as=fT(g,l,u,v),at=fX(g,P,v,n,ao,ar,l,u),av=M?M[1]:R(t),Q=jU(g,am),S=Q[1],T=S[1],y=T[2],j=T[1],U=Q[2],aw=S[2],p=d(function(b){return aB(b,aw,K(g,a))},y);function
 V(a){return jI(g,j,p,L,al,I,G,jH(g,j,p,i,a,0))}function
@@ -2939,7 +2944,7 @@ b=w(C,a);return function(a){return z(b,az,ay,a)}},r=o;break;case
 2:var
 aD=b[2],aE=b[1],ae=c1(x,n),ai=0;if(ae){var
 af=H(C[1],e),ag=af?H(C[2],e):af;if(ag){var
-s=function(b,a){return z(b,aE,aD,d(nM,a))},r=o;ai=1}else
+s=function(b,a){return z(b,aE,aD,d(nN,a))},r=o;ai=1}else
 var
 ah=ag}else
 var
@@ -2948,7 +2953,7 @@ ah=ae;if(!ai)return ah;break;default:F=1}if(F)return 0;break;case
 aj=0,aG=h[1];if(typeof
 b==="number"&&!b)var
 s=function(a){var
-b=B(aG,a);return function(a){return W(n2(g,j,p,U,a,V(b)))}},r=o;else
+b=B(aG,a);return function(a){return W(n3(g,j,p,U,a,V(b)))}},r=o;else
 aj=1;if(aj)return 0;break;case
 4:var
 ak=0,aH=h[2];if(typeof
@@ -2959,7 +2964,7 @@ b=w(aH,a);return function(a){return z(b,aJ,aI,a)}},s=aK,r=h[1];if(ak)return 0;br
 E=eZ(n,at,r);if(E){var
 aA=E[1],aC=a4(i);return k(function(a){var
 b=d(function(b){return hs(g,a,as,b)},aA);return au(s,aq(a,av),b)},aC)}return E}return ac}function
-oj(s,r,q,p,o,n,F,m,c,l,k,j,i,g,a){var
+ok(s,r,q,p,o,n,F,m,c,l,k,j,i,g,a){var
 w=d(function(a){return e},c),v=0;if(typeof
 a!=="number")switch(a[0]){case
 5:var
@@ -2976,7 +2981,7 @@ A=u;return A}return hB(s,r,q,p,o,n,m,c,0,l,a,0,0,w,k,j,i,g)}function
 hC(b,ar,p,P,O,v,ao,L,an,J,u,G,l,h,j,i,o,F){var
 n=f(O),as=cX(0,O),Q=fT(b,h,j,p),ai=hu(h,j),aj=d(function(a){var
 b=jP(h,j,a[1]),c=b?jP(h,j,a[2]):b,d=c?[1,a[1],a[2]]:c;return d},ai),al=ax(0,f(h)),am=g(d(function(a){var
-b=jP(h,j,a),c=b?[0,a]:b;return c},al),aj),at=fX(b,ar,p,P,as,ao,h,j),au=G?G[1]:R(t),S=hn(an,R(jN(J,fS(h,0,p),u))),T=d(function(a){return d(function(b){return n5(a,b[1])},h)},u);function
+b=jP(h,j,a),c=b?[0,a]:b;return c},al),aj),at=fX(b,ar,p,P,as,ao,h,j),au=G?G[1]:R(t),S=hn(an,R(jN(J,fS(h,0,p),u))),T=d(function(a){return d(function(b){return n6(a,b[1])},h)},u);function
 U(a){return a?aV(b,n,a[1]):a}var
 av=d(ap,h),V=k(function(a){return aF(a,f(p))},av),W=V?d3(d(ap,h)):V;if(W){var
 Y=fY(j,h),Z=Y?k(function(a){return m(f(a),n)},i):Y;if(Z)var
@@ -2999,13 +3004,13 @@ O=X([0,B(r(b,A,aq(M,S)),L),0],n),h=d(function(a){return K(b,a)},az),g=J,i=O;for(
 p=g[1],q=p[2],s=q[1],c=s[2],f=s[1],j=q[2],k=p[1],l=[0,[0,bq(c),f],i];if(k){var
 u=I(e,c[1]);if(u)var
 y=d(function(a){var
-c=r(b,A,a[2][2]),d=a[2][1][1],e=[0,[0,ak(a[2][1][2]),d],c];return[0,a[1],e]},j),z=d(function(a){return t},f),C=[0,aO(b),z],D=aO(b),a=jO(b,[0,N(bQ(du(b,f,h),D,c)),h],0,vL,C,o,k,y,l);else
+c=r(b,A,a[2][2]),d=a[2][1][1],e=[0,[0,ak(a[2][1][2]),d],c];return[0,a[1],e]},j),z=d(function(a){return t},f),C=[0,aO(b),z],D=aO(b),a=jO(b,[0,N(bQ(du(b,f,h),D,c)),h],0,vM,C,o,k,y,l);else
 var
 a=u}else
 if(j){var
 w=I(e,c[1]);if(w)var
 E=d(function(a){var
-c=r(b,A,a[2][2]),d=a[2][1][1],e=[0,[0,ak(a[2][1][2]),d],c];return[0,a[1],e]},j),F=d(function(a){return t},f),G=[0,aO(b),F],H=aO(b),a=jO(b,[0,N(bQ(du(b,f,h),H,c)),h],0,vM,G,o,k,E,l);else
+c=r(b,A,a[2][2]),d=a[2][1][1],e=[0,[0,ak(a[2][1][2]),d],c];return[0,a[1],e]},j),F=d(function(a){return t},f),G=[0,aO(b),F],H=aO(b),a=jO(b,[0,N(bQ(du(b,f,h),H,c)),h],0,vN,G,o,k,E,l);else
 var
 a=w}else
 var
@@ -3038,22 +3043,22 @@ var
 l=a?0:[0,f];return U(l)}};E=1;ah=1}if(!ah)var
 ad=0}if(E){var
 C=eZ(P,at,v);if(C){var
-aa=C[1],aA=M(T,aa),ab=k(function(a){return n9(a[1],a[2])},aA);if(ab){var
+aa=C[1],aA=M(T,aa),ab=k(function(a){return n_(a[1],a[2])},aA);if(ab){var
 aC=M(F,M(T,aa)),aD=d(function(a){var
-b=a[2][2],c=[0,od(a[1],am,0,a[2][2]),b];return[0,a[1],[0,a[2][1],c]]},aC),aE=a4(n);return k(function(c){var
+b=a[2][2],c=[0,oe(a[1],am,0,a[2][2]),b];return[0,a[1],[0,a[2][1],c]]},aC),aE=a4(n);return k(function(c){var
 a=d(function(a){var
-f=a[2][2][1],k=a[2][2][2],l=a[2][1],g=M(f,Q),e=n7(b,J,c,d(function(a){return oe(a[1],a[2])},g),l,k),i=e[2],h=M(f,Q),j=M(x(function(a){var
-b=oe(a[1],a[2]);return d(function(b){return a[1]},b)},h),i);return[0,a[1],[0,e[1],j]]},aD);return $(c,aq(c,au),a)},aE)}var
+f=a[2][2][1],k=a[2][2][2],l=a[2][1],g=M(f,Q),e=n8(b,J,c,d(function(a){return of(a[1],a[2])},g),l,k),i=e[2],h=M(f,Q),j=M(x(function(a){var
+b=of(a[1],a[2]);return d(function(b){return a[1]},b)},h),i);return[0,a[1],[0,e[1],j]]},aD);return $(c,aq(c,au),a)},aE)}var
 ac=ab}else
 var
 ac=C;return ac}}else
 var
 ad=z;return ad}function
-ok(a){return d(function(a){return 0},a)}function
-ol(g,x,o,v,Q,I,n,l,G,F,i){function
+ol(a){return d(function(a){return 0},a)}function
+om(g,x,o,v,Q,I,n,l,G,F,i){function
 p(L,b,j,y,z){if(typeof
 b!=="number"&&14===b[0]){if(F)return 0;var
-aM=b[3],aN=b[2],aO=b[1],aP=ok(o);return hC(g,x,v,I,n,o,bC(bJ(o),x),l,G,e,aP,L,aO,j,y,[0,z,0],aN,aM)}var
+aM=b[3],aN=b[2],aO=b[1],aP=ol(o);return hC(g,x,v,I,n,o,bC(bJ(o),x),l,G,e,aP,L,aO,j,y,[0,z,0],aN,aM)}var
 h=f(n),au=cX(0,n),av=bC(bJ(o),x),aw=fT(g,j,y,v),ax=fX(g,x,v,I,au,av,j,y),ay=L?L[1]:R(t);function
 p(a){return a?aV(g,h,a[1]):a}function
 O(b,a){return N(w(aq(b,G),a))}function
@@ -3066,7 +3071,7 @@ an=0;if(F){var
 U=F[1],V=U[1],W=V[1],Y=W[1],Z=V[2],_=U[2],aA=W[2],$=jU(g,z),aa=$[1],ab=aa[1],C=ab[2],i=ab[1],ac=$[2],aC=aa[2],s=d(function(b){return aB(b,aC,K(g,a))},C),ad=function(a){return jI(g,i,s,Y,aA,Z,_,jH(g,i,s,h,a,0))},ae=m(f(C),h),af=ae?m(f(Y),h):ae,ag=af?D(e,Z):af,ah=ag?fG(_,c(2,c(2,c(2,c(2,c(2,c(2,a))))))):ag,ai=ah?aF(i,h):ah,aj=ai?J(H(q(i,C,e),e)):ai,M=0;if(aj)if(l){var
 ao=0,aD=l[1];if(typeof
 b==="number"&&!b){var
-u=function(c,b,a){return p(n2(g,i,s,ac,a,ad(P(aD,c,b))))};M=1;ao=1}if(!ao)return 0}else{var
+u=function(c,b,a){return p(n3(g,i,s,ac,a,ad(P(aD,c,b))))};M=1;ao=1}if(!ao)return 0}else{var
 ar=0;if(typeof
 b!=="number"&&0===b[0]){var
 aH=b[2],aI=b[1],u=function(c,b,a){return p(jJ(g,i,s,ac,aI,aH,a,ad(O(c,b))))};M=1;ar=1}if(!ar)var
@@ -3076,7 +3081,7 @@ ak=aj;if(!M)return ak}else{var
 al=d(function(a){return K(g,a)},z);if(l){var
 as=0,aJ=l[1];if(typeof
 b==="number"&&!b){var
-u=function(c,b,a){return p(nN(g,al,a,X([0,P(aJ,c,b),0],h)))};as=1}if(!as)return 0}else{var
+u=function(c,b,a){return p(nO(g,al,a,X([0,P(aJ,c,b),0],h)))};as=1}if(!as)return 0}else{var
 at=0;if(typeof
 b==="number"||!(0===b[0]))at=1;else
 var
@@ -3108,7 +3113,7 @@ M=D(e,s);if(M)return L([0,fN(s,E,u[1])]);var
 O=M}else
 var
 O=u;return O}return p(0,i,0,0,C)}function
-om(b,p,j,o,T,A,n,l,F,z,s,g){function
+on(b,p,j,o,T,A,n,l,F,z,s,g){function
 q(C,h,i,u,g){if(typeof
 h!=="number"&&14===h[0]){var
 ab=h[3],ac=h[2],ad=h[1];if(l)return g?g[2]?0:hC(b,p,o,A,n,j,bC(bJ(j),p),l,F,z,s,C,ad,i,u,g,ac,ab):g;if(g){var
@@ -3116,7 +3121,7 @@ E=g[2];if(E)return E[2]?0:hC(b,p,o,A,n,j,bC(bJ(j),p),l,F,z,s,C,ad,i,u,g,ac,ab);v
 ae=E}else
 var
 ae=g;return ae}var
-q=f(n),ai=cX(0,n),aj=bC(bJ(j),p),al=fT(b,i,u,o),am=fX(b,p,o,A,ai,aj,i,u),an=C?C[1]:R(t),J=hn(F,R(jN(z,fS(i,0,o),s))),L=d(function(a){return d(function(b){return n5(a,b[1])},i)},s);function
+q=f(n),ai=cX(0,n),aj=bC(bJ(j),p),al=fT(b,i,u,o),am=fX(b,p,o,A,ai,aj,i,u),an=C?C[1]:R(t),J=hn(F,R(jN(z,fS(i,0,o),s))),L=d(function(a){return d(function(b){return n6(a,b[1])},i)},s);function
 O(a){return a?aV(b,q,a[1]):a}var
 ao=d(ap,i),P=k(function(a){return aF(a,f(o))},ao),Q=P?d3(d(ap,i)):P;if(Q){var
 S=fY(u,i),T=S?k(function(a){return m(f(a),q)},g):S;if(T)var
@@ -3133,7 +3138,7 @@ C=X([0,B(r(b,U,aq(A,J)),z),0],q),p=d(function(a){return K(b,a)},as),c=y,f=C;for(
 j=c[1],k=j[1],g=k[2],h=k[1],l=j[2],m=[0,[0,bq(g),h],f];if(l){var
 n=I(e,g[1]);if(n)var
 u=d(function(a){var
-c=r(b,U,a[2]),d=a[1][1];return[0,[0,ak(a[1][2]),d],c]},l),v=d(function(a){return t},h),w=[0,aO(b),v],x=aO(b),a=hw(b,[0,N(bQ(du(b,h,p),x,g)),p],0,vH,w,u,m);else
+c=r(b,U,a[2]),d=a[1][1];return[0,[0,ak(a[1][2]),d],c]},l),v=d(function(a){return t},h),w=[0,aO(b),v],x=aO(b),a=hw(b,[0,N(bQ(du(b,h,p),x,g)),p],0,vI,w,u,m);else
 var
 a=n}else
 var
@@ -3168,9 +3173,9 @@ var
 aa=g;if(!ah)return aa}if(!ag)var
 _=0}if(G){var
 D=eZ(A,am,j);if(D){var
-W=D[1],at=M(L,W),Y=k(function(a){return n9(a[1],a[2])},at);if(Y){var
+W=D[1],at=M(L,W),Y=k(function(a){return n_(a[1],a[2])},at);if(Y){var
 au=a4(q);return k(function(a){var
-c=M(L,W),e=d(function(c){return n7(b,z,a,al,c[1],c[2])},c);return V(a,aq(a,an),e)},au)}var
+c=M(L,W),e=d(function(c){return n8(b,z,a,al,c[1],c[2])},c);return V(a,aq(a,an),e)},au)}var
 Z=Y}else
 var
 Z=D;return Z}}else
@@ -3189,7 +3194,7 @@ J=D(e,v);if(J)return G([0,fN(v,E,x[1])]);var
 L=J}else
 var
 L=x;return L}return q(0,g,0,0,C)}function
-on(k,j,f,t,i,s,h,r,q,c,d,p,o,b){if(typeof
+oo(k,j,f,t,i,s,h,r,q,c,d,p,o,b){if(typeof
 d!=="number"&&14===d[0]){var
 u=d[1];switch(c[0]){case
 0:var
@@ -3202,13 +3207,13 @@ w=b;n=1}if(n)return w;break;case
 B=c[1],m=B,l=[0,K(k,a)],g=f;break;case
 4:if(!b)return b;if(b[2])return 0;var
 m=c[2],l=0,g=c[1];break;default:return 0}var
-x=d[3],y=d[2],z=ok(g),A=R(m);return hC(k,j,s,h,r,g,bC(eY(f,t,i,c,u),j),l,A,e,z,q,u,p,o,b,y,x)}return vZ(k,j,f,t,i,s,h,r,q,c,d,p,o,b)}function
-oo(m,l,k,j,i,g,p,f,b,d,a){if(typeof
+x=d[3],y=d[2],z=ol(g),A=R(m);return hC(k,j,s,h,r,g,bC(eY(f,t,i,c,u),j),l,A,e,z,q,u,p,o,b,y,x)}return v0(k,j,f,t,i,s,h,r,q,c,d,p,o,b)}function
+op(m,l,k,j,i,g,p,f,b,d,a){if(typeof
 a!=="number")switch(a[0]){case
 5:var
 q=a[2],n=h(p,b);if(n){var
 r=D(e,q);if(r){var
-z=a[1];return oi(m,l,k,j,i,g,f,b,[0,fN(q,a[3],n[1])],d,z)}var
+z=a[1];return oj(m,l,k,j,i,g,f,b,[0,fN(q,a[3],n[1])],d,z)}var
 s=r}else
 var
 s=n;return s;case
@@ -3217,10 +3222,10 @@ t=a[4],u=a[3],v=a[2],c=a[1];if(typeof
 c!=="number"&&5===c[0]){var
 w=c[2],o=h(p,b);if(o){var
 x=D(e,w);if(x){var
-A=c[1];return on(m,l,k,j,i,g,f,b,[0,fN(w,c[3],o[1])],d,A,v,u,t)}var
+A=c[1];return oo(m,l,k,j,i,g,f,b,[0,fN(w,c[3],o[1])],d,A,v,u,t)}var
 y=x}else
 var
-y=o;return y}return on(m,l,k,j,i,g,f,b,0,d,c,v,u,t)}return oi(m,l,k,j,i,g,f,b,0,d,a)}function
+y=o;return y}return oo(m,l,k,j,i,g,f,b,0,d,c,v,u,t)}return oj(m,l,k,j,i,g,f,b,0,d,a)}function
 jV(a){switch(a[0]){case
 9:case
 10:return 0;default:return 1}}function
@@ -3271,10 +3276,10 @@ N=f;return N;case
 o=b[1];if(o){var
 O=o[1],g=b[2];if(O){if(g){var
 P=g[1];if(P)return[0,[0,G(O[1],P[1])]];var
-Q=vC}else
+Q=vD}else
 var
 Q=g;return Q}var
-aj=g?vD:g,R=aj}else
+aj=g?vE:g,R=aj}else
 var
 R=o;return R;case
 7:var
@@ -3283,14 +3288,14 @@ S=p[1],h=b[2];if(S){if(h)var
 q=h[1],ak=q?[0,[0,aX(S[1],q[1])]]:q,T=ak;else
 var
 T=h;return T}var
-al=h?vE:h,U=al}else
+al=h?vF:h,U=al}else
 var
 U=p;return U;case
 8:var
 r=b[1];if(r){var
 V=r[1];if(V){var
 X=V[1];return[0,[0,G(X,X)]]}var
-Y=vF}else
+Y=vG}else
 var
 Y=r;return Y;case
 9:var
@@ -3328,25 +3333,25 @@ a=q(c,h,0);if(a){var
 b=a1(a[1]);return 0===b?1:0<b?0:0}return a},o)}return i},f):i}function
 hE(j,a,i,h,g,f,e,d,c,b){var
 k=bC(eY(i,h,g,c,b),a);return jQ(j,a,bz(eW,e,f),k,d)}function
-op(f,d,c,n,m,b,l,q,e,k,j,i,h,a){if(typeof
+oq(f,d,c,n,m,b,l,q,e,k,j,i,h,a){if(typeof
 a!=="number"&&11===a[0]){var
 o=a[3],g=a[1],p=hD(d,c,n,m,b,k,g,a[2]);if(p){var
-r=hE(f,d,c,n,m,b,g,e,k,o);return ol(f,d,c,bz(eW,g,b),l,r,e,j,i,h,o)}return p}return ol(f,d,c,b,l,q,e,j,i,h,a)}function
-oq(r,q,p,o,n,l,j,i,h,g,e,c,a){if(typeof
+r=hE(f,d,c,n,m,b,g,e,k,o);return om(f,d,c,bz(eW,g,b),l,r,e,j,i,h,o)}return p}return om(f,d,c,b,l,q,e,j,i,h,a)}function
+or(r,q,p,o,n,l,j,i,h,g,e,c,a){if(typeof
 a!=="number"&&12===a[0]){var
 b=a[1],s=J(m(f(b),0));if(s){var
 t=M(jG(d(function(a){return a[1][1][1]},b)),b);return k(function(a){var
-b=a[2],d=b[1];return op(r,q,p,o,n,l,j,i,h,g,e,c,[0,[0,[0,[0,a[1][1],a[1][2]],d[1][2]],d[2]]],b[2])},t)}return s}return op(r,q,p,o,n,l,j,i,h,g,e,c,0,a)}function
-or(g,f,e){var
+b=a[2],d=b[1];return oq(r,q,p,o,n,l,j,i,h,g,e,c,[0,[0,[0,[0,a[1][1],a[1][2]],d[1][2]],d[2]]],b[2])},t)}return s}return oq(r,q,p,o,n,l,j,i,h,g,e,c,0,a)}function
+os(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
 c=au(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-os(a){if(typeof
+ot(a){if(typeof
 a!=="number"&&11===a[0])return[0,a[1]];return 0}function
-ot(g,c,b,s,r,d,p,x,f,o,n,l,j,e,a){if(typeof
+ou(g,c,b,s,r,d,p,x,f,o,n,l,j,e,a){if(typeof
 a!=="number"&&11===a[0]){var
 t=a[3],u=a[2],h=a[1],v=hD(c,b,s,r,d,o,h,u);if(v)var
 w=M(e,b),i=k(function(a){var
@@ -3364,14 +3369,14 @@ d=a[2],e=d||a[3],f=e||a[4];return f;case
 b=a[1],c=b||a[2];return c}},c),f=bJ([0,a[2],0]);return ag(function(a){return q(a,e,0)},f)},b)},w);else
 var
 i=v;if(i){var
-y=hE(g,c,b,s,r,d,h,f,o,t);return om(g,c,b,bz(eW,h,d),p,y,f,n,l,j,e,t)}return i}return om(g,c,b,d,p,x,f,n,l,j,e,a)}function
+y=hE(g,c,b,s,r,d,h,f,o,t);return on(g,c,b,bz(eW,h,d),p,y,f,n,l,j,e,t)}return i}return on(g,c,b,d,p,x,f,n,l,j,e,a)}function
 hF(b,a){if(a){var
 c=a[2];if(b){var
 e=hF(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-ou(c,b,a){var
+ov(c,b,a){var
 d=M(b,a);return k(function(a){var
 b=h(c,a[1]);return b?b:J(a[2])},d)}function
 fZ(n,c,l,b,i,t,o,g,a,aj,r){switch(r[0]){case
@@ -3381,7 +3386,7 @@ au=function(a){return k(J,a)},T=au,A=r[1];break;case
 av=r[4],aw=r[3],ax=r[2],ay=function(d){var
 e=ds(ax,a),f=fZ(n,c,l,b,i,t,o,g,e[1],d,aw);return f?fZ(n,c,l,b,i,t,o,g,e[2],d,av):f},T=ay,A=r[1];break;default:var
 az=r[4],aA=r[3],aB=r[2],aC=function(d){var
-e=ou(jV,t,d);if(e){var
+e=ov(jV,t,d);if(e){var
 f=ds(aB,g),h=fZ(n,c,l,b,i,t,o,f[1],a,d,aA);if(h)return fZ(n,c,l,b,i,t,o,f[2],a,d,az);var
 j=h}else
 var
@@ -3407,7 +3412,7 @@ j==="number")U=1;else
 switch(j[0]){case
 11:var
 X=j[3],G=j[1],Y=hD(c,l,b,i,g,p,G,j[2]);if(Y)var
-ap=hE(n,c,l,b,i,g,G,a,p,X),s=oo(n,c,l,b,i,bz(eW,G,g),o,ap,a,p,X);else
+ap=hE(n,c,l,b,i,g,G,a,p,X),s=op(n,c,l,b,i,bz(eW,G,g),o,ap,a,p,X);else
 var
 s=Y;break;case
 12:var
@@ -3423,17 +3428,17 @@ u=t[2],e=t[1],v=hz(C),j=u[1],k=j[1][2],m=j[2],d=u[2],p=v?b:l;function
 q(a){return v?hA(a):a}if(typeof
 d!=="number"&&11===d[0]){var
 r=d[3],h=d[1],s=hD(c,l,b,i,g,f,h,d[2]);if(s){var
-y=q(r),z=e[2],A=e[1],B=hE(n,c,l,b,i,g,h,a,f,r);return oj(n,c,p,b,i,bz(eW,h,g),o,B,a,f,A,z,k,m,y)}return s}var
-x=q(d);return oj(n,c,p,b,i,g,o,w,a,f,e[1],e[2],k,m,x)}}(j,p),ar);else
+y=q(r),z=e[2],A=e[1],B=hE(n,c,l,b,i,g,h,a,f,r);return ok(n,c,p,b,i,bz(eW,h,g),o,B,a,f,A,z,k,m,y)}return s}var
+x=q(d);return ok(n,c,p,b,i,g,o,w,a,f,e[1],e[2],k,m,x)}}(j,p),ar);else
 var
 s=B;break;case
 13:var
 K=j[5],L=j[4],C=j[3],D=j[1];if(2===p[0]){var
 $=p[1],u=jT(n,D,j[2]);if(C){var
 at=hn(u,R(jN(D,g,C))),aa=hm(f(a),at);if(aa){var
-V=os(L);if(V){var
-W=os(K);if(W)var
-an=W[1],ao=V[1],N=or(function(a,b){return or(m,a,b)},ao,an);else
+V=ot(L);if(V){var
+W=ot(K);if(W)var
+an=W[1],ao=V[1],N=os(function(a,b){return os(m,a,b)},ao,an);else
 var
 N=1}else
 var
@@ -3441,12 +3446,12 @@ N=1;var
 O=N}else
 var
 O=aa;var
-ab=O?ot(n,c,l,b,i,g,o,w,a,p,0,u,D,C,L):O,s=ab?ot(n,c,l,b,i,g,o,w,a,p,[0,$],u,D,C,K):ab}else
+ab=O?ou(n,c,l,b,i,g,o,w,a,p,0,u,D,C,L):O,s=ab?ou(n,c,l,b,i,g,o,w,a,p,[0,$],u,D,C,K):ab}else
 var
-ac=hm(f(a),u),ad=ac?oq(n,c,l,b,i,g,o,w,a,p,0,u,L):ac,s=ad?oq(n,c,l,b,i,g,o,w,a,p,[0,$],u,K):ad}else
+ac=hm(f(a),u),ad=ac?or(n,c,l,b,i,g,o,w,a,p,0,u,L):ac,s=ad?or(n,c,l,b,i,g,o,w,a,p,[0,$],u,K):ad}else
 var
 s=0;break;default:U=1}if(U)var
-s=oo(n,c,l,b,i,g,o,w,a,p,j);if(s){var
+s=op(n,c,l,b,i,g,o,w,a,p,j);if(s){var
 z=af,v=hF(P,v);continue}var
 ah=s}else
 var
@@ -3467,14 +3472,14 @@ f=M(a[1],b[1]);return d(function(a){var
 b=u(c,a[2]);return C(u(e,a[1]),b)},f)}if(a3(a[2],b[2])){var
 g=a[2];return[0,f(e,c),g]}var
 h=u(a[2],b[2]),i=u(c,a[2]);return[0,f(u(e,b[2]),i),h]}function
-ov(b){var
+ow(b){var
 c=n(a);return[0,d(function(a){return n(e)},b),c]}function
 bh(b,l){var
 f=l[1];switch(f[0]){case
 1:var
 t=f[1];if(ag(function(a){return m(t,a)},b)){var
 C=n(a);return[0,d(function(b){var
-c=m(b,t)?a:e;return n(c)},b),C]}return ov(b);case
+c=m(b,t)?a:e;return n(c)},b),C]}return ow(b);case
 3:var
 D=n(a),E=bh(b,f[2]),F=n(a);return e0(bh(b,f[1]),F,E,D);case
 4:var
@@ -3494,10 +3499,10 @@ U=n(a);return[0,j[1],U]}var
 V=u(n(c(2,a)),l),X=u(j[2],V);return[0,j[1],X];case
 10:var
 o=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,o]],q=[0,[10,1,h,g,o]],Y=A(g,q),Z=bh(b,g),_=A(h,p),$=e0(bh(b,h),_,Z,Y),aa=n(W(a)),ab=bh(b,o),r=e0($,n(c(2,a)),ab,aa),ac=r[1],ad=f[1]?p:bB(q),s=d(function(a){return u(ad,a)},ac);if(k(function(a){return bf(e,a)},s))return[0,s,r[2]];var
-ae=u(h,q),af=A(u(g,p),ae),ah=u(n(c(2,a)),af);return[0,s,u(r[2],ah)];default:return ov(b)}}function
+ae=u(h,q),af=A(u(g,p),ae),ah=u(n(c(2,a)),af);return[0,s,u(r[2],ah)];default:return ow(b)}}function
 hG(c,a){var
 b=bh(c,a),f=b[1];return d(function(a){return bf(e,a)?a:aj(a,b[2])},f)}function
-ow(g){var
+ox(g){var
 h=g[1],c=h[2],d=h[1];if(0===d[0]){var
 i=d[2],b=d[1];if(D(i,a)){if(0===c[0]){var
 j=c[2],m=c[1];if(D(j,a)){var
@@ -3507,7 +3512,7 @@ var
 f=l;var
 o=f?[0,b]:f;return o}return H(a2(j,aT(2))[2],e)?0:0}return 0}return H(a2(i,aT(2))[2],e)?0:0}return 0}function
 bV(c,b){var
-a=ow(c);return a?n(a[1]):[0,[1,b]]}function
+a=ox(c);return a?n(a[1]):[0,[1,b]]}function
 cy(b,a){if(a)var
 d=cy([0,b],a[2]),c=[0,bV(a[1],b),d];else
 var
@@ -3519,17 +3524,17 @@ c=a[1],f=[0,[0,c[4],b],0],h=g(bi(c[3],b),f),i=g(bi(c[2],b),h);return g(bi(c[1],d
 1:var
 e=a[3],j=e?bi(e[1],d):e,k=g(bi(a[2],b),j);return g(bi(a[1],b),k);default:return bi(a[1],d)}}function
 ar(b,a){var
-c=n(e),d=q(P(v0,a),b,c),f=n(e),g=q(P(v1,a),b,f);return[0,q(a,b,n(e)),g,d]}function
-ox(b,a){return ah(A,ah(C,dZ,a),b)}function
+c=n(e),d=q(P(v1,a),b,c),f=n(e),g=q(P(v2,a),b,f);return[0,q(a,b,n(e)),g,d]}function
+oy(b,a){return ah(A,ah(C,dZ,a),b)}function
 hI(c,b,a){if(a){var
 d=a[2],f=hI(c,by(b),d),h=a[1];return g(hH(c,bH(e,b),h),f)}return a}function
 jY(g,d,c,j){if(c){var
 b=c[1],v=P(j,f(hH(g,bH(e,d),b))),w=c[2],x=jY(g,by(d),w,v),a=cy(j,hH(g,bH(e,d),b));switch(b[0]){case
 0:var
-l=b[1][5],m=q(v2,a,n(e)),o=ah(C,dZ,ar(a,v3)),p=dY(ar(a,0)),r=ar(a,v4),h=nu(ox(ar(a,v5),r),p,o,m,l);break;case
+l=b[1][5],m=q(v3,a,n(e)),o=ah(C,dZ,ar(a,v4)),p=dY(ar(a,0)),r=ar(a,v5),h=nv(oy(ar(a,v6),r),p,o,m,l);break;case
 1:var
-i=b[3],s=i?[0,dY(ar(a,v6))]:i,t=ah(C,dZ,ar(a,v7)),u=ar(a,v8),h=nv(ox(ar(a,0),u),t,s);break;default:var
-h=nw(dZ,dY(ar(a,0)))}var
+i=b[3],s=i?[0,dY(ar(a,v7))]:i,t=ah(C,dZ,ar(a,v8)),u=ar(a,v9),h=nw(oy(ar(a,0),u),t,s);break;default:var
+h=nx(dZ,dY(ar(a,0)))}var
 k=[0,h,x]}else
 var
 k=c;return k}function
@@ -3575,16 +3580,16 @@ c=a[3],f=[5,[4,c,c],a[4]];return[0,[0,[0,f,f],b],0];case
 15:var
 j=a[2],k=a[1];return d(function(b){var
 a=[5,j,b];return[0,[0,a,a],e]},k)}return 0}function
-oy(c,b,a){var
+oz(c,b,a){var
 d=f(d4(c,b)),e=P(a[2],d);return[0,[0,a[1]],e]}function
 jZ(c,b){if(a3(b,c))return[0,n(e)];var
 a=b[1];if(4===a[0]){var
 d=a3(a[1],c),f=d?[0,a[2]]:d;return f}return 0}function
-oz(x,p,b,o){switch(o[0]){case
+oA(x,p,b,o){switch(o[0]){case
 0:var
 i=F(x,o[1]);if(i){var
 j=i[1];if(j){var
-r=j[1],s=r[1],c=s[2],d=s[1],t=r[2],y=ar(b,v9),z=ah(C,ah(A,d,a$(aj(q(v_,b,n(e)),t),c)),y),B=ar(b,v$),f=aj(q(0,b,n(e)),t),k=jZ(d[1],c[1]);if(k){var
+r=j[1],s=r[1],c=s[2],d=s[1],t=r[2],y=ar(b,v_),z=ah(C,ah(A,d,a$(aj(q(v$,b,n(e)),t),c)),y),B=ar(b,wa),f=aj(q(0,b,n(e)),t),k=jZ(d[1],c[1]);if(k){var
 l=jZ(d[2],c[2]);if(l){var
 m=jZ(d[3],c[3]);if(m)var
 w=a$(f,c),g=ah(C,[0,k[1],l[1],m[1]],w);else
@@ -3601,45 +3606,45 @@ v=u}else
 var
 v=i;return v;case
 1:var
-D=ar(b,wa);return[0,[0,ar(b,0),D]];default:var
-E=h(p,ar(b,wb));return[0,[0,h(p,ar(b,0)),E]]}}function
-oA(e,d,c,h,g){var
-a=oz(e,d,ao(wc,c),h);if(a)var
-b=oz(e,d,aw(wd,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
+D=ar(b,wb);return[0,[0,ar(b,0),D]];default:var
+E=h(p,ar(b,wc));return[0,[0,h(p,ar(b,0)),E]]}}function
+oB(e,d,c,h,g){var
+a=oA(e,d,ao(wd,c),h);if(a)var
+b=oA(e,d,aw(we,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
 var
 f=a;return f}function
-oB(f,c,e,b,a){var
+oC(f,c,e,b,a){var
 h=e1(c,a),i=cy(e,g(e1(c,b),h));function
-j(a){return ah(C,dZ,a)}return oA(d(function(a){var
+j(a){return ah(C,dZ,a)}return oB(d(function(a){var
 b=a[7];return y(function(b){var
 c=dr(a);return[0,[0,b,a[1]],c]},b)},f),j,i,b,a)}function
 d5(d,c,b,a){var
 e=u(c,b);return A(u(d,a),e)}function
 bK(a){return x(function(a){return g(a[1],[0,a[2],0])},a)}function
-oC(b,a){if(b)if(a)var
-d=b[1],e=oC(b[2],a[2]),f=u(d[2],a[1]),c=[0,[0,bT(d[1]),f],e];else
+oD(b,a){if(b)if(a)var
+d=b[1],e=oD(b[2],a[2]),f=u(d[2],a[1]),c=[0,[0,bT(d[1]),f],e];else
 var
 c=a;else
 var
 c=b;return c}function
-oD(a){if(a){var
+oE(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=oD(a[2]);if(d)var
+c=b[1],d=oE(a[2]);if(d)var
 g=d[1],h=ac(c,c),e=[0,[0,[0,bT(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return wf}function
+f=b;return f}return wg}function
 f1(b,e,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
 i=c[1],j=bV(ca(e,a),i);return[0,d(function(a){var
 b=u(a[2],j);return[0,bT(a[1]),b]},b)];case
-9:return oD(b);case
+9:return oE(b);case
 15:var
 k=f(b),g=m(f(a[1]),k);if(g)var
-l=d4(e,a),h=[0,oC(b,cy(c[2],l))];else
+l=d4(e,a),h=[0,oD(b,cy(c[2],l))];else
 var
 h=g;return h}return 0}function
 hJ(d,k,j,b){var
@@ -3652,11 +3657,11 @@ Q=function(a){return[0,A(a[4],c),0]},g=Q,f=b[1];break;case
 R=function(a){return[0,A(c,a[4]),0]},g=R,f=b[1];break;case
 4:var
 S=function(b){var
-a=b[1],d=_(a[3]),e=_(a[2]),f=_(a[1]),g=b[2];return[0,A(A(A(u(_(c),g),f),e),d),0]},g=S,f=b[1];break;case
+a=b[1],d=$(a[3]),e=$(a[2]),f=$(a[1]),g=b[2];return[0,A(A(A(u($(c),g),f),e),d),0]},g=S,f=b[1];break;case
 6:var
 T=function(b){var
 a=b[5];if(a)var
-e=_(a[1]),f=u(_(c),e),d=[0,A(b[2],f),0];else
+e=$(a[1]),f=u($(c),e),d=[0,A(b[2],f),0];else
 var
 d=a;return d},g=T,f=b[1];break;case
 7:if(d){var
@@ -3672,18 +3677,18 @@ G=E}else
 var
 G=d;return G;case
 10:var
-s=oB(d,k,j[2],b[1],b[2]);if(s){var
+s=oC(d,k,j[2],b[1],b[2]);if(s){var
 H=s[1],I=H[2],J=H[1];return x(bT,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return s;case
 11:var
 X=function(d){var
 e=d[7];if(e)var
-n=d4(k,b),f=cy(j[2],n),h=ar(f,we),a=ah(A,ar(f,0),h),i=_(c),l=_(dr(d)),m=aj(_(ac(a,d[1])),l),g=[0,A(A(ac(a,a),m),i),0];else
+n=d4(k,b),f=cy(j[2],n),h=ar(f,wf),a=ah(A,ar(f,0),h),i=$(c),l=$(dr(d)),m=aj($(ac(a,d[1])),l),g=[0,A(A(ac(a,a),m),i),0];else
 var
 g=e;return g},g=X,f=b[1];break;case
 12:var
 Y=function(d){var
 p=n(e),r=d4(k,b),s=q(0,cy(j[2],r),p),f=aj(s,dr(d)),g=d[5];if(g){var
-l=aR(d[2]),h=aj(g[1],l),m=u(h,C(c,u(f,_(h))));return[0,A(n(a),m),0]}var
+l=aR(d[2]),h=aj(g[1],l),m=u(h,C(c,u(f,$(h))));return[0,A(n(a),m),0]}var
 i=d[7],o=i?[0,A(A(n(a),c),f),0]:i;return o},g=Y,f=b[1];break;case
 8:case
 9:case
@@ -3691,30 +3696,30 @@ i=d[7],o=i?[0,A(A(n(a),c),f),0]:i;return o},g=Y,f=b[1];break;case
 r=f1(d,k,j,b);return r?bK(r[1]):r;default:t=1}if(t)return 0;var
 o=F(d,f);return o?g(o[1]):o}function
 j0(d,b,c,a){if(a){var
-e=a[1],f=a[2],h=j0(d,b,oy(b,e,c),f);return g(hJ(d,b,c,e),h)}return a}var
-oE=[0,e,a],oF=[0,[0,oE,oE],e];function
+e=a[1],f=a[2],h=j0(d,b,oz(b,e,c),f);return g(hJ(d,b,c,e),h)}return a}var
+oF=[0,e,a],oG=[0,[0,oF,oF],e];function
 j1(a){return J(cu(a[1][1],a[1][2]))}function
 hK(a){var
-b=ax(0,f(a));return aN(function(b){return j1(q(b,a,oF))},b)}function
+b=ax(0,f(a));return aN(function(b){return j1(q(b,a,oG))},b)}function
 j2(b,a){var
 c=M(hK(b),a);return aN(function(a){return J(bf(e,a[2]))},c)}function
 f2(a,b){return j2(a,hG(hK(a),b))}function
-oG(b,a){var
+oH(b,a){var
 c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]}function
-oH(m,l,k,j,i,b){return ad(d(function(e){var
-b=q(e[1],k,oF),f=aX(b[2],j),g=[4,[0,c(2,a),a],i],d=[5,[3,b[1][2],b[1][1]],g],n=av(m,[0,[0,d,d],f]);return y(function(a){return[0,a,h(l,e[2])]},n)},b))}function
-oI(f,e,a,d,c,b){return oH(f,e,a,d,c,f2(a,b))}function
+oI(m,l,k,j,i,b){return ad(d(function(e){var
+b=q(e[1],k,oG),f=aX(b[2],j),g=[4,[0,c(2,a),a],i],d=[5,[3,b[1][2],b[1][1]],g],n=av(m,[0,[0,d,d],f]);return y(function(a){return[0,a,h(l,e[2])]},n)},b))}function
+oJ(f,e,a,d,c,b){return oI(f,e,a,d,c,f2(a,b))}function
 j3(g,f,n,m,l,d,c){var
 i=[5,l,d],a=av(g,[0,[0,i,i],e]);if(a){var
-b=oI(g,f,n,m,d,c);if(b)var
+b=oJ(g,f,n,m,d,c);if(b)var
 o=[0,a[1],b[1]],j=[0,[0,h(f,c),o]];else
 var
 j=b;var
 k=j}else
 var
 k=a;return k}function
-oJ(c,G,n,al,l,j,o,s){if(s){var
-b=s[1],aH=s[2],aI=oJ(c,G,n,al,l,j,oy(j,b,o),aH);if(typeof
+oK(c,G,n,al,l,j,o,s){if(s){var
+b=s[1],aH=s[2],aI=oK(c,G,n,al,l,j,oz(j,b,o),aH);if(typeof
 b==="number")if(0===b)var
 g=[0,[0,t]];else
 var
@@ -3740,10 +3745,10 @@ var
 N=w;var
 g=N;break;case
 10:var
-z=oB(l,j,o[2],b[1],b[2]);if(z){var
+z=oC(l,j,o[2],b[1],b[2]);if(z){var
 O=z[1],P=O[2],R=O[1],A=av(c,ca(j,b));if(A){var
 S=A[1],T=D(e,S[1]);if(T)var
-q=function(a){return oG(n,a)},ay=q(P[2]),az=q(P[1]),aA=q(R[2]),U=[0,[6,q(R[1]),aA,az,ay,S]];else
+q=function(a){return oH(n,a)},ay=q(P[2]),az=q(P[1]),aA=q(R[2]),U=[0,[6,q(R[1]),aA,az,ay,S]];else
 var
 U=T;var
 V=U}else
@@ -3769,7 +3774,7 @@ ab=aa;H=1}}else{var
 ab=_;H=1}if(H)var
 g=ab;break;case
 14:var
-ac=b[2],ae=b[1],af=m(f(l),wg),ag=af?i(c,0,ae):af,ah=ag?i(c,1,ac):ag;if(ah){var
+ac=b[2],ae=b[1],af=m(f(l),wh),ag=af?i(c,0,ae):af,ah=ag?i(c,1,ac):ag;if(ah){var
 C=av(c,ca(j,b));if(C)var
 E=ad(d(function(a){return j3(c,n,al,j,ae,ac,a[4])},l)),aD=E?[0,[9,C[1],E[1]]]:E,ai=aD;else
 var
@@ -3795,13 +3800,13 @@ g=L}var
 am=[0,g,aI]}else
 var
 am=s;return am}function
-wh(a){var
+wi(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
 e2(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-oK(a,c,g,b){if(0===c[0])return 0;if(b){var
+oL(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
 e=d[1],f=b[1],i=dp(a,g,c[1]);if(i){var
@@ -3857,7 +3862,7 @@ dx(c,b,a){var
 d=bI(c,b[1],a);return d?bI(c,a,b[2]):d}function
 bD(c,b,a){var
 d=dx(c,b[1],a[1]),e=d?dx(c,b[2],a[2]):d;return e?dx(c,b[3],a[3]):e}function
-oL(b,c,a){switch(c[0]){case
+oM(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
 j=a[4],f=a[1],k=bD(b,d[1],f),l=k?i(b,1,v(f,f)):k,m=l?bD(b,d[2],a[2]):l,n=m?bD(b,d[3],a[3]):m,o=n?dx(b,d[4],j):n,p=o?i(b,1,j):o;return p?cp(d[5],a[5]):p}return 0;case
@@ -3876,7 +3881,7 @@ c2(c,a,b){if(0===a[0])return bD(c,a[1],b);var
 d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=i(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),h=g?i(c,0,d):g;return h?dx(c,a[4],b[3]):h}function
 f3(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=oL(g,b[1],a[1]);if(d){var
+d=oM(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
@@ -3911,15 +3916,15 @@ c=a[2],d=a[1],e=aW(d,c,b);return[0,v(aW(d,c,b),e)];default:return 0}}function
 f4(d,c,b){var
 f=[0,e,a];return an(function(a,d){var
 e=v(cc(a,c),b);return[2,[4,v(cc(a,c),b),e],d]},f,d)}function
-oM(f,d,c,b){if(f){if(d){var
-g=d[1],h=oM(f[2],d[2],c,b),i=v(cc(g,c),b),j=[4,v(cc(g,c),b),i];return[2,[4,f[1],j],h]}return[0,e,a]}return[0,e,a]}function
-oN(b){var
+oN(f,d,c,b){if(f){if(d){var
+g=d[1],h=oN(f[2],d[2],c,b),i=v(cc(g,c),b),j=[4,v(cc(g,c),b),i];return[2,[4,f[1],j],h]}return[0,e,a]}return[0,e,a]}function
+oO(b){var
 c=b[1];return[0,[0,c[1],a],[0,c[2],a],[0,b[2],a]]}function
 j5(b,c){switch(b[0]){case
 0:return b[4];case
 1:var
 d=b[2],e=b[1],f=aW(e,d,c);return[6,v(aW(e,d,c),f)];default:return[0,a,a]}}function
-oO(d,i){if(d){var
+oP(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
 f=c[1],g=aW(a[1],a[2],i),k=aH(f),l=T(v(aH(f),g),k),h=[0,O(function(b,a){return[3,b,a]},g,l)];else
@@ -3928,16 +3933,16 @@ h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=oO(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=oP(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return wi}function
+j=b;return j}return wj}function
 dy(a){return[0,a[1],a[2],a[3]]}function
-oP(a,b){switch(a[0]){case
+oQ(a,b){switch(a[0]){case
 0:var
 f=a[4],c=a[3],g=a[2],d=a[1],i=aH(d),j=cb(d,g,c,f,b),k=T(cz(a[5],j),i),l=d6(d,g,c,b),m=O(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,O(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
 h=a[2],e=aW(a[1],h,b),n=[6,v(e,e)];return[0,[0,[0,O(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-oQ(m,e,b){switch(b[0]){case
+oR(m,e,b){switch(b[0]){case
 0:var
 n=b[5],c=F(m,b[1]);if(c){var
 d=c[1];if(d)var
@@ -3951,22 +3956,22 @@ l=c;return l;case
 1:var
 r=dy(b[3]);return[0,[0,dy(b[2]),r]];default:var
 s=h(e,dy(b[3]));return[0,[0,h(e,dy(b[2])),s]]}}function
-oR(d,a,c,b){var
+oS(d,a,c,b){var
 e=T(a,b),f=T([3,d,a],c);return O(function(b,a){return[2,b,a]},f,e)}function
-oS(a,l,c,k,j,y){var
+oT(a,l,c,k,j,y){var
 d=h(l,k);if(d){var
 m=d[1],e=h(l,j);if(e){var
-n=e[1],f=c[1],g=c[2],b=c[3],z=oR(b,g,n[1],n[2]),A=oR(b,f,m[1],m[2]),o=O(function(b,a){return[3,b,a]},A,z),B=eK(j),p=[4,b,[2,[2,eK(k),B],y]],q=i(a,1,b),r=q?i(a,0,f):q,s=r?i(a,0,[3,b,f]):r,t=s?i(a,0,g):s,u=t?i(a,0,[3,b,g]):t;if(u)return i(a,1,[3,[4,p,p],v(o,o)]);var
+n=e[1],f=c[1],g=c[2],b=c[3],z=oS(b,g,n[1],n[2]),A=oS(b,f,m[1],m[2]),o=O(function(b,a){return[3,b,a]},A,z),B=eK(j),p=[4,b,[2,[2,eK(k),B],y]],q=i(a,1,b),r=q?i(a,0,f):q,s=r?i(a,0,[3,b,f]):r,t=s?i(a,0,g):s,u=t?i(a,0,[3,b,g]):t;if(u)return i(a,1,[3,[4,p,p],v(o,o)]);var
 w=u}else
 var
 w=e;var
 x=w}else
 var
 x=d;return x}function
-oT(d,c,b,a,h,g,f,e){var
+oU(d,c,b,a,h,g,f,e){var
 j=i(d,1,b),k=j?i(d,1,a):j;if(k){var
 l=au(c,f,f),m=[4,[4,a,a],[4,au(c,g,g),l]];return i(d,1,[3,[4,[4,[4,b,b],[4,h,h]],au(c,e,e)],m])}return k}function
-oU(h,g,c,f,y,b){function
+oV(h,g,c,f,y,b){function
 S(b){return[4,[4,[5,[0,a,a],b],[5,[0,a,a],b]],v(f,f)]}var
 N=0;if(typeof
 b==="number")N=1;else
@@ -4007,14 +4012,14 @@ af=g;return af;case
 8:var
 aV=f4(g,c,f),aX=v(f,f);return i(h,1,[3,[4,[5,b[2],b[1]],aX],aV]);case
 9:var
-ag=b[1],E=oO(g,c);if(E){var
+ag=b[1],E=oP(g,c);if(E){var
 aY=E[1],az=[0,e,a],aA=an(function(a,b){var
 c=v(aH(a),f);return[2,[4,v(aH(a),f),c],b]},az,aY);return i(h,1,[3,[4,[4,ag,ag],v(f,f)],aA])}return E;case
 10:var
-aZ=b[3],a0=b[2],a1=b[1],aB=function(b,a){return[2,b,a]},aC=function(a){return O(aB,c,a)},aD=d(function(a){return oP(a,c)},g);return oS(h,function(a){return oQ(aD,aC,a)},f,a1,a0,aZ);case
+aZ=b[3],a0=b[2],a1=b[1],aB=function(b,a){return[2,b,a]},aC=function(a){return O(aB,c,a)},aD=d(function(a){return oQ(a,c)},g);return oT(h,function(a){return oR(aD,aC,a)},f,a1,a0,aZ);case
 11:var
 ah=b[4],G=F(g,b[1]);if(G){var
-H=oP(G[1],c);if(H){var
+H=oQ(G[1],c);if(H){var
 n=H[1][1][2],a2=dy(b[3]),a3=dy(b[2]),r=O(function(b,a){return[3,b,a]},a3,a2),ai=i(h,1,v(n,n));if(ai){var
 a4=v(n,n),a5=v(r,n),a6=[5,[4,v(r,n),a5],a4];return i(h,1,[3,[4,ah,ah],[3,v(r,r),a6]])}var
 aj=ai}else
@@ -4046,7 +4051,7 @@ t=g[2];if(t){var
 u=t[2];if(u){if(u[2])return 0;var
 aq=u[1],ar=t[1],as=g[1],at=b[1],L=F([0,f[1],[0,f[2],[0,f[3],0]]],at);if(L){var
 M=F([0,as,[0,ar,[0,aq,0]]],at);if(M){var
-au=M[1],a8=bL(au,c),a9=cc(au,c),a_=bL(aq,c),a$=T(f[3],a_),ba=bL(ar,c),bb=T(f[2],ba),bc=bL(as,c),bd=T(f[1],bc),be=O(function(b,a){return[2,b,a]},bd,bb),bf=O(function(b,a){return[2,b,a]},be,a$);return oT(h,v,b[2],b[3],L[1],bf,a9,a8)}var
+au=M[1],a8=bL(au,c),a9=cc(au,c),a_=bL(aq,c),a$=T(f[3],a_),ba=bL(ar,c),bb=T(f[2],ba),bc=bL(as,c),bd=T(f[1],bc),be=O(function(b,a){return[2,b,a]},bd,bb),bf=O(function(b,a){return[2,b,a]},be,a$);return oU(h,v,b[2],b[3],L[1],bf,a9,a8)}var
 av=M}else
 var
 av=L;var
@@ -4060,52 +4065,52 @@ ay=ax}else
 var
 ay=g;return ay;case
 15:var
-bg=oM(b[1],g,c,f),bh=v(f,f);return i(h,1,[3,[4,b[2],bh],bg]);default:N=1}if(N)return 0;var
+bg=oN(b[1],g,c,f),bh=v(f,f);return i(h,1,[3,[4,b[2],bh],bg]);default:N=1}if(N)return 0;var
 B=F(g,z);return B?i(h,1,A(B[1])):B}function
 f5(g,h,f,c,b){var
 m=f3(g,h,f,c);if(m)if(typeof
 b==="number")return 0===b?ag(function(d){var
-b=j4(d,c);return b?i(g,0,[3,[0,e,a],b[1]]):b},f):no(wj,d(function(b){var
+b=j4(d,c);return b?i(g,0,[3,[0,e,a],b[1]]):b},f):np(wk,d(function(b){var
 a=bL(b,c);return[0,a[1],[0,a[2],[0,a[3],0]]]},f));else{if(0===b[0]){var
 j=F(h[3],b[1]);if(j){var
-p=j[1],q=oN(b[3]);return oU(g,f,c,oN(b[2]),q,p)}return j}var
+p=j[1],q=oO(b[3]);return oV(g,f,c,oO(b[2]),q,p)}return j}var
 k=F(h[3],b[1]);if(k){var
 l=F(f,b[2]);if(l){var
-n=l[1],r=k[1],s=cc(n,c);return oU(g,f,c,cc(n,c),s,r)}var
+n=l[1],r=k[1],s=cc(n,c);return oV(g,f,c,cc(n,c),s,r)}var
 o=l}else
 var
 o=k;return o}return m}function
 bW(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-oV(a){switch(a[0]){case
+oW(a){switch(a[0]){case
 0:var
 b=a[1],c=b[5],d=b[4][1],e=bW(b[3]),f=bW(b[2]);return[0,bW(b[1]),f,e,d,c];case
 1:var
 g=y(bW,a[3]),h=bW(a[2]);return[1,bW(a[1]),h,g];default:return[2,bW(a[1])]}}function
 j6(a){return 0===a[0]?bW(a[1]):[0,a[1],a[2],a[4][1]]}function
-oW(b,a){var
-c=j6(a[2]);return f3(b,a,d(oV,a[1]),c)}function
+oX(b,a){var
+c=j6(a[2]);return f3(b,a,d(oW,a[1]),c)}function
 j7(b,a,c){var
 d=[0,c,aw(b,a)];return g(ao(b,a),d)}function
 bj(c,b){if(c){if(b){var
 d=bj(c[2],b[2]);return[2,[4,c[1],b[1]],d]}return[0,e,a]}return[0,e,a]}function
-oX(d,c,b){if(d){if(c){var
-f=c[1],g=oX(d[2],c[2],b),h=bj(f,b),i=[4,bj(f,b),h];return[2,[4,d[1],i],g]}return[0,e,a]}return[0,e,a]}function
-oY(b,a){if(b){if(a){var
-c=b[1],e=oY(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aJ(function(a){return[4,c,a]},h,g,f,e)}var
+oY(d,c,b){if(d){if(c){var
+f=c[1],g=oY(d[2],c[2],b),h=bj(f,b),i=[4,bj(f,b),h];return[2,[4,d[1],i],g]}return[0,e,a]}return[0,e,a]}function
+oZ(b,a){if(b){if(a){var
+c=b[1],e=oZ(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aJ(function(a){return[4,c,a]},h,g,f,e)}var
 d=a}else
 var
 d=b;return d}function
-oZ(b,c,a){var
+o0(b,c,a){var
 d=[0,c,aw([0,b],a)];return g(ao(b,a),d)}function
-o0(a,b){var
-e=m(a,wk),c=e||m(a,wl),d=c?m(f(b),a):c;return d?k(function(b){return m(f(b),a)},b):d}function
-o1(a){if(a){var
+o1(a,b){var
+e=m(a,wl),c=e||m(a,wm),d=c?m(f(b),a):c;return d?k(function(b){return m(f(b),a)},b):d}function
+o2(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=o1(a[2]);return y(function(a){return[0,c,a]},d)}return b}return wm}function
+c=b[1],d=o2(a[2]);return y(function(a){return[0,c,a]},d)}return b}return wn}function
 hM(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=hM(a[2]);return y(function(a){return[0,c,a]},d)}return b}return wn}function
-o2(a,l,k,f){var
+c=b[1],d=hM(a[2]);return y(function(a){return[0,c,a]},d)}return b}return wo}function
+o3(a,l,k,f){var
 b=aG(a,l);if(b){var
 c=aG(a,k);if(c){var
 d=dq(a,f);if(d){var
@@ -4122,21 +4127,21 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-o3(a){return a?I(a[1][2],e):a}function
+o4(a){return a?I(a[1][2],e):a}function
 bX(a){return a?I(e,a[1][1]):a}function
-o4(d,b){return i(d,0,[3,[0,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a))))))))),a],b])}function
-o5(d,a){if(a){var
+o5(d,b){return i(d,0,[3,[0,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a))))))))),a],b])}function
+o6(d,a){if(a){var
 b=aG(d,a[1]);if(b)var
-c=o5(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
-var
-e=b;return e}return wo}function
-hN(d,a){if(a){var
-b=o5(d,a[1]);if(b)var
-c=hN(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+c=o6(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
 e=b;return e}return wp}function
-o6(b,a){return an(function(c,a){return w(Q(b,c),a)},t,a)}function
-o7(b,d){function
+hN(d,a){if(a){var
+b=o6(d,a[1]);if(b)var
+c=hN(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+var
+e=b;return e}return wq}function
+o7(b,a){return an(function(c,a){return w(Q(b,c),a)},t,a)}function
+o8(b,d){function
 c(e,d,c,a){var
 f=r(b,d,c);return B(r(b,e,a),f)}if(d){var
 e=d[1];if(e){var
@@ -4152,7 +4157,7 @@ n=m[2];if(n){if(n[2])return t;if(k[2])return t;var
 u=n[1],v=m[1],x=l[1],y=j[1],z=i[1],A=h[1],C=c(A,z,x,v),D=r(b,g[1],C),E=r(b,q,c(A,y,x,u));return w(B(r(b,s,c(z,y,v,u)),E),D)}return t}return t}return t}return t}return t}return t}return t}return t}if(a){var
 o=a[1];if(o){var
 p=o[2];return p?p[2]?t:a[2]?t:c(s,q,o[1],p[1]):t}return t}return t}return t}return t}return t}function
-o8(b,p,n,t,g,j){function
+o9(b,p,n,t,g,j){function
 a1(c,b){return[4,[4,[5,[0,a,a],c],[5,[0,a,a],c]],bj(b,b)]}var
 bM=n[1];function
 C(b){var
@@ -4169,10 +4174,10 @@ b=0;if(typeof
 j==="number")b=1;else
 switch(j[0]){case
 6:var
-a=wq;break;case
+a=wr;break;case
 13:case
 14:var
-a=wr;break;default:b=1}if(b)var
+a=ws;break;default:b=1}if(b)var
 a=p;return m(f(c),a)},g);if(a2){var
 w=0;if(typeof
 j==="number")w=1;else
@@ -4191,7 +4196,7 @@ a!=="number"&&0===a[0])return i(b,1,[3,a[1],bR]);return 0},ai=bS,ah=j[1];break;c
 a6=j[3],a7=j[2],bT=function(d){var
 h=m(t,0);if(typeof
 d!=="number"&&1===d[0]){var
-e=d[2],f=d[1],g=i(b,0,[3,[2,a7,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a]],a6]);return g?h?o3(o2(b,f,e,a7)):bX(o2(b,f,e,a6)):g}return 0},ai=bT,ah=j[1];break;case
+e=d[2],f=d[1],g=i(b,0,[3,[2,a7,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a]],a6]);return g?h?o4(o3(b,f,e,a7)):bX(o3(b,f,e,a6)):g}return 0},ai=bT,ah=j[1];break;case
 5:if(g){var
 E=g[2];if(E){if(E[2])return 0;var
 ak=E[1],al=g[1],a8=j[1],bU=bj(al,al),bV=[4,[4,a8,a8],[4,C(ak),bU]],bW=bj(ak,ak);return i(b,1,[3,[4,C(al),bW],bV])}var
@@ -4214,7 +4219,7 @@ bd=g[1],am=j[1],b0=j[3],b1=j[2],ao=hM(n[7]);if(ao){var
 H=ao[1],ap=F(bd,am);if(ap){var
 b2=ap[1],be=m(f(H),p),bf=be?k(function(a){return m(f(a),p)},H):be;if(bf){var
 aq=F(H,am);if(aq){var
-b3=aq[1];return D(am,function(a){return oT(b,bj,b1,b0,b2,oY(bd,H),a,b3)})}var
+b3=aq[1];return D(am,function(a){return oU(b,bj,b1,b0,b2,oZ(bd,H),a,b3)})}var
 bg=aq}else
 var
 bg=bf;var
@@ -4228,7 +4233,7 @@ bk=bi}else
 var
 bk=g;return bk;case
 8:if(g){if(g[2])return 0;var
-ar=g[1],b4=oX(j[1],n[1],ar),b5=bj(ar,ar);return i(b,1,[3,[4,j[2],b5],b4])}return g;case
+ar=g[1],b4=oY(j[1],n[1],ar),b5=bj(ar,ar);return i(b,1,[3,[4,j[2],b5],b4])}return g;case
 9:if(g)return 0;var
 bl=j[3],bm=j[2],b6=function(e){var
 f=i(b,1,bm),g=f?i(b,0,bl):f;if(g){var
@@ -4265,7 +4270,7 @@ j=i}else
 var
 j=a;return j},bo=b_,bn=j[1];w=2;break;case
 12:if(g)return 0;var
-au=o1(n[3]);if(au){var
+au=o2(n[3]);if(au){var
 bq=au[1],b$=j[1],br=bz(function(b,a){return[4,b,a[3]]},bq,b$),av=d(function(a){return a[1]},bq),x=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(av){var
 P=av[1];if(P){var
 R=P[2];if(R){var
@@ -4314,7 +4319,7 @@ bt=au;return bt;case
 ca=j[2],aw=F(n[4],j[1]);if(aw){var
 ax=aw[1];if(ax){var
 bu=function(b){if(ca){var
-c=h(n[5],[0,[0,e,a],[0,e,a],[0,e,a]]),d=h(n[5],b);return O(function(b,a){return[3,b,a]},d,c)}return b},I=j[4],u=bu(dy(j[3])),J=ax[1][1][2],q=v(J,u);if(o4(b,I)){if(t){if(t[1])return 0;if(g){var
+c=h(n[5],[0,[0,e,a],[0,e,a],[0,e,a]]),d=h(n[5],b);return O(function(b,a){return[3,b,a]},d,c)}return b},I=j[4],u=bu(dy(j[3])),J=ax[1][1][2],q=v(J,u);if(o5(b,I)){if(t){if(t[1])return 0;if(g){var
 y=g[1];if(y){var
 z=y[2];if(z){var
 A=z[2];if(A){if(A[2])return 0;if(g[2])return 0;var
@@ -4352,7 +4357,7 @@ aX=i(b,0,[3,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a],I]);if(aX){var
 ae=dq(b,I);if(ae){var
 af=aG(b,q);if(af){var
 bK=v(J,J),ag=aG(b,[6,[4,v(u,u),bK]]);if(ag){var
-bL=r(b,ae[1],ag[1]);return o3([0,B(af[1],bL)])}var
+bL=r(b,ae[1],ag[1]);return o4([0,B(af[1],bL)])}var
 aY=ag}else
 var
 aY=af;var
@@ -4369,7 +4374,7 @@ bv=aw;return bv;case
 K=g[1];if(K){var
 L=K[2];if(L){var
 M=L[2];if(M){if(M[2])return 0;if(g[2])return 0;var
-cb=j[3],cc=j[2],cd=j[1],ce=[0,K[1],L[1],M[1]],cf=n[5],cg=n[4];return oS(b,function(a){return oQ(cg,cf,a)},ce,cd,cc,cb)}var
+cb=j[3],cc=j[2],cd=j[1],ce=[0,K[1],L[1],M[1]],cf=n[5],cg=n[4];return oT(b,function(a){return oR(cg,cf,a)},ce,cd,cc,cb)}var
 bw=M}else
 var
 bw=L;var
@@ -4381,7 +4386,7 @@ var
 by=g;return by;case
 17:if(g)return 0;var
 bA=j[2],ay=j[1],ch=j[3],az=hM(n[7]);if(az){var
-aA=az[1],bB=o0(p,aA),bC=bB?m(f(bA),p):bB;if(bC){var
+aA=az[1],bB=o1(p,aA),bC=bB?m(f(bA),p):bB;if(bC){var
 aB=F(aA,ay);if(aB){var
 ci=aB[1];return D(ay,function(x){var
 e=hN(b,aA);if(e){var
@@ -4390,11 +4395,11 @@ a=f[1];if(a){var
 c=a[2];if(c){var
 d=c[2];if(d){if(d[2])return 0;var
 g=aG(b,ch);if(g){var
-k=g[1],l=Q(b,o7(b,j)),h=o7(b,oZ(ay,a[1],j)),n=bX([0,k]),o=n?bX([0,l]):n;if(o)var
+k=g[1],l=Q(b,o8(b,j)),h=o8(b,o0(ay,a[1],j)),n=bX([0,k]),o=n?bX([0,l]):n;if(o)var
 y=m(t,0)?h:N(h),i=bX([0,y]);else
 var
 i=o;if(i){var
-z=o6(b,c[1]),A=r(b,r(b,Q(b,k),l),z),C=o6(b,d[1]);return bX([0,B(r(b,Q(b,h),C),A)])}var
+z=o7(b,c[1]),A=r(b,r(b,Q(b,k),l),z),C=o7(b,d[1]);return bX([0,B(r(b,Q(b,h),C),A)])}var
 p=i}else
 var
 p=g;var
@@ -4433,10 +4438,10 @@ a3=a2;return a3}function
 f6(d,f,b){if(typeof
 b!=="number")switch(b[0]){case
 13:var
-e=b[4];if(o4(d,e)&&J(i(d,0,[3,e,[0,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a))))))))),a]])))return wu;return wv;case
+e=b[4];if(o5(d,e)&&J(i(d,0,[3,e,[0,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a))))))))),a]])))return wv;return ww;case
 16:return f;case
 4:case
-17:return wt}return ws}function
+17:return wu}return wt}function
 d7(e,d,g,f){var
 b=g,a=f;for(;;){if(a){var
 c=a[1];if(aF(b,f6(e,d,c)))return[0,[0,c,b]];var
@@ -4445,13 +4450,13 @@ f7(b){return d(function(b){return[0,b,a]},b)}function
 j8(f,o,g,c,n,b){if(typeof
 b==="number"){if(0===b){var
 s=c[6];return ag(function(b){return i(f,0,[3,[0,e,a],b])},s)}var
-h=hM(c[7]);return h?no(g,h[1]):h}else{if(0===b[0]){var
+h=hM(c[7]);return h?np(g,h[1]):h}else{if(0===b[0]){var
 j=d7(f,o,b[1],n);if(j){var
-p=j[1],t=p[1],u=d(f7,b[2]);return o8(f,g,c,p[2],u,t)}return j}var
+p=j[1],t=p[1],u=d(f7,b[2]);return o9(f,g,c,p[2],u,t)}return j}var
 k=d7(f,o,b[1],n);if(k){var
 q=k[1],l=q[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=F(c[1],b[2]);return m?o8(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
+m=F(c[1],b[2]);return m?o9(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
 r=0}else
 var
 r=k;return r}}function
@@ -4465,14 +4470,14 @@ f9(a,b){var
 c=hO(a,b);return v(e3(a),c)}function
 f_(a,b){var
 c=hO(a,b);return v(f8(a),c)}function
-o9(a,b){var
+o_(a,b){var
 c=hO(a,b);return v(aH(a[1]),c)}function
 hP(b,a){var
 c=f_(b,a),d=f9(b,a);return[2,[4,d,d],[4,c,c]]}function
 f$(b,d){var
-h=b[5],i=[4,[0,c(2,a),a],h],e=b[6],f=b[5],g=o9(b,d);return[5,[2,hP(b,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+h=b[5],i=[4,[0,c(2,a),a],h],e=b[6],f=b[5],g=o_(b,d);return[5,[2,hP(b,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
 j_(a,b){var
-f=a[5],c=[3,f$(a,b),f],d=o9(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+f=a[5],c=[3,f$(a,b),f],d=o_(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
 d8(a,b){var
 c=j_(a,b);return cz(a[7],c)}function
 j$(b,a){var
@@ -4487,22 +4492,22 @@ d9(b){return[5,[3,[0,a,a],[4,b,b]],[2,[0,a,a],[4,b,b]]]}function
 d_(b){return[5,[4,[0,c(2,a),a],b],[2,[0,a,a],[4,b,b]]]}function
 kd(a,c,b){var
 d=[4,d9(a),b],e=[2,[4,d_(a),c],d],f=[4,d_(a),b];return[0,[3,[4,d9(a),c],f],e]}function
-o_(c,a){var
+o$(c,a){var
 b=kd(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
 cA(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-o$(b,d){var
+pa(b,d){var
 e=v(b,b),f=cA(b,d),g=T([0,c(2,a),a],f),h=v(b,d),i=T([4,[0,c(2,a),a],h],b),j=T([3,[0,a,a],e],d),k=O(function(b,a){return[2,b,a]},j,i);return T([5,[0,a,a],[2,[0,a,a],e]],O(function(b,a){return[2,b,a]},k,g))}function
 dz(j,b,a){switch(j[0]){case
-0:return b?b[2]?a:o_(b[1],a):a;case
+0:return b?b[2]?a:o$(b[1],a):a;case
 1:if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){if(d[2])return a;var
-g=kd(b[1],a[2],a[3]),i=g[1],h=kd(c[1],g[2],a[1]);return o_(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
+g=kd(b[1],a[2],a[3]),i=g[1],h=kd(c[1],g[2],a[1]);return o$(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
 e=b[2];if(e){var
-f=e[2];return f?f[2]?a:o$([0,b[1],e[1],f[1]],a):a}return a}return a}}function
-pa(c){var
+f=e[2];return f?f[2]?a:pa([0,b[1],e[1],f[1]],a):a}return a}return a}}function
+pb(c){var
 b=cV(c);return b?eJ(b[1],[0,e,a]):b}function
-pb(b,n,k,j){if(pa(j)){var
+pc(b,n,k,j){if(pb(j)){var
 q=n?[3,[0,e,a],k]:k;return i(b,0,q)}var
 f=aG(b,k);if(f){var
 g=dq(b,[5,j,[0,c(2,a),a]]);if(g){var
@@ -4518,19 +4523,19 @@ var
 d=f;if(d){var
 o=d[1];return n?D(e,o[1]):D(o[2],e)}return d}function
 d$(b,a,c){var
-d=bI(b,a[1],a[2]),e=d?pb(b,0,c,a[1]):d;return e?pb(b,1,c,a[2]):e}function
-pc(h,f,c){if(pa(c))return[0,t];var
+d=bI(b,a[1],a[2]),e=d?pc(b,0,c,a[1]):d;return e?pc(b,1,c,a[2]):e}function
+pd(h,f,c){if(pb(c))return[0,t];var
 b=G(h,jx(f)),d=dq(b,c);if(d){var
 e=hj(b,c);if(e){var
-i=e[1],j=d[1],k=bP(b,w(K(b,a),j));return y(function(a){return m$(f,r(b,i,a))},k)}var
+i=e[1],j=d[1],k=bP(b,w(K(b,a),j));return y(function(a){return na(f,r(b,i,a))},k)}var
 g=e}else
 var
 g=d;return g}function
-cB(a){return function(b){return pc(a,e,b)}}function
+cB(a){return function(b){return pd(a,e,b)}}function
 cC(d,b){var
 e=i(d,1,[2,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a],b]);return e?i(d,1,[3,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a],b]):e}function
 dA(b){return[0,[3,[0,e,a],b],b]}function
-pd(b,c,o,n){var
+pe(b,c,o,n){var
 i=bI(b,[0,e,a],c),j=i?cC(b,c):i;if(j){var
 d=h(cB(b),c);if(d){var
 f=aG(b,o);if(f){var
@@ -4563,7 +4568,7 @@ p=b;return p;case
 2:if(b){var
 g=b[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=b[1],C=v([0,s,r,q],[0,s,r,q]);return pd(d,c[1],C,[0,a,a])}var
+q=h[1],r=g[1],s=b[1],C=v([0,s,r,q],[0,s,r,q]);return pe(d,c[1],C,[0,a,a])}var
 t=h}else
 var
 t=g;var
@@ -4572,7 +4577,7 @@ var
 u=b;return u;default:if(b){var
 i=b[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],w=i[1],x=b[1],y=pd(d,c[1],[2,[4,x,x],[4,w,w]],[2,[0,a,a],[4,k,k]]);if(y)return d$(d,dA(c[2]),k);var
+k=j[1],w=i[1],x=b[1],y=pe(d,c[1],[2,[4,x,x],[4,w,w]],[2,[0,a,a],[4,k,k]]);if(y)return d$(d,dA(c[2]),k);var
 z=y}else
 var
 z=j;var
@@ -4588,20 +4593,20 @@ a=an(function(f,d){var
 a=aG(j,f);if(a)var
 b=a[1],c=bx(cM(b[1]),cM(b[2]));else
 var
-c=e;return bx(c,d)},e,b);return I(e,a)?aX(mL(a),j):e}function
+c=e;return bx(c,d)},e,b);return I(e,a)?aX(mM(a),j):e}function
 e4(a){return[0,a[1],[0,a[2],0]]}function
 bk(a){var
 b=e4(a[3]),c=g(e4(a[2]),b);return g(e4(a[1]),c)}function
 hQ(a){return hL(j,a,bY(bk(a)))}function
-pe(b,a){if(a){var
-g=pe([0,b],a[2]),c=a[1];if(0===c[0])var
+pf(b,a){if(a){var
+g=pf([0,b],a[2]),c=a[1];if(0===c[0])var
 d=c[1],e=bV([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-pf(c,b,a){var
+pg(c,b,a){var
 d=eK(b);return[2,[2,eK(c),d],a]}function
 hR(b,a){return b?W(a):e}function
 gb(h,c,b){if(typeof
@@ -4619,7 +4624,7 @@ b=hR(h,c);return[0,[5,s,a],G(hR(h,c),b)]},t);case
 13:var
 f=b[3],k=bY([0,f[1],[0,f[2],[0,f[3],0]]]);return[0,[2,b[4]],[0,[0,f[1],k],[0,[0,f[2],k],[0,[0,f[3],k],0]]]];case
 14:var
-n=b[2],o=b[1],u=e1(c,n),v=g(e1(c,o),u),w=d(function(a){return[0,a[1][2],a[2]]},v);return[0,[0,pf(o,n,b[3]),c],w];case
+n=b[2],o=b[1],u=e1(c,n),v=g(e1(c,o),u),w=d(function(a){return[0,a[1][2],a[2]]},v);return[0,[0,pg(o,n,b[3]),c],w];case
 15:var
 i=b[4],j=b[3],p=b[2];return h?[0,[0,[5,p,i],c],[0,[0,[5,[4,j,j],i],G(c,c)],[0,[1,[0,a,a],e],0]]]:[0,[0,[5,p,i],e],[0,[0,[5,[4,j,j],i],c],0]];case
 16:var
@@ -4629,7 +4634,7 @@ x=b[3],y=b[2];return d(function(a){return[0,[5,a,x],hR(h,c)]},y);case
 2:case
 3:return[0,[0,b[2],c],0]}return 0}function
 dB(h,c,b,e,a){if(a){var
-d=a[1],i=a[2],j=dB(h,c,b,P(e,f(gb(c,b,d))),i);return g(au(h,pe(e,gb(c,b,d)),d),j)}return a}function
+d=a[1],i=a[2],j=dB(h,c,b,P(e,f(gb(c,b,d))),i);return g(au(h,pf(e,gb(c,b,d)),d),j)}return a}function
 hS(b,a){var
 c=M(b,a);return d(function(a){var
 b=u(a[1][2],a[2]);return[0,a[1][1],b]},c)}function
@@ -4640,8 +4645,8 @@ d=a[1];return av(b,[0,[0,d,d],a[2]]);case
 e=a[1],c=av(b,[0,[0,e,e],a[2]]);return c?jy(b,c[1]):c;case
 2:return dq(b,a[1]);case
 3:return hj(b,a[1]);default:var
-f=a[1],g=cC(b,f);return g?pc(b,a[2],f):g}}function
-bM(a){return 1===a?ww:wx}function
+f=a[1],g=cC(b,f);return g?pd(b,a[2],f):g}}function
+bM(a){return 1===a?wx:wy}function
 cd(d,c,b,a){var
 e=a[1],f=dz(d,c,a[2]),g=O(function(b,a){return[2,b,a]},b,f);return O(function(b,a){return[3,b,a]},g,e)}function
 ke(c,b,a){switch(c){case
@@ -4743,23 +4748,23 @@ b=a[1];continue;default:var
 d=hV(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
 hW(a,h){if(a){var
-b=a[2],c=a[1],d=mY(h);if(d){var
-e=d[1],f=e[2];return e[1]?[0,c,hW(b,an(m1,f,m0(c)))]:[0,wA,hW(b,f)]}var
+b=a[2],c=a[1],d=mZ(h);if(d){var
+e=d[1],f=e[2];return e[1]?[0,c,hW(b,an(m2,f,m1(c)))]:[0,wB,hW(b,f)]}var
 g=[0,c,hW(b,0)]}else
 var
 g=a;return g}function
 dC(b,a){return a?h(b,a[1]):a}function
 dD(c,b,a){return dC(function(b){return dC(h(c,b),a)},b)}function
-pg(b,a){switch(a[0]){case
+ph(b,a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 c=a[3],d=a[2],e=a[1];switch(b){case
 0:return e;case
 1:return d;default:return c}}}function
-ph(a){return 0===a[0]?a[1]:0}function
-pi(d,c){var
+pi(a){return 0===a[0]?a[1]:0}function
+pj(d,c){var
 b=d,a=c;for(;;){if(a){var
-e=a[2],b=pg(a[1],b),a=e;continue}return ph(b)}}function
+e=a[2],b=ph(a[1],b),a=e;continue}return pi(b)}}function
 cD(b,a){switch(a[0]){case
 0:return[0,h(b,a[1])];case
 1:return[1,cD(b,a[1])];default:var
@@ -4789,7 +4794,7 @@ d=[0,b,Q(c,b)]}return[0,[0,h(f,d)]]},i=kg(c,f,a[2]),j=d(function(a){return[1,a]}
 var
 g=a;return g}function
 kh(b,z,c,a){var
-d=kg(b,aE,a),A=g(kg(b,ap,a),d);return cS(wC,function(a){switch(a[0]){case
+d=kg(b,aE,a),A=g(kg(b,ap,a),d);return cS(wD,function(a){switch(a[0]){case
 0:return q(a[1],A,[0,[0,t]]);case
 1:return[0,[0,q(a[1],z,t)]];case
 2:return[0,[0,K(b,a[1])]];case
@@ -4807,12 +4812,12 @@ d=bP(b,a);return y(function(a){return r(b,c,a)},d)};return bE(function(a,b){retu
 8:var
 s=a[1],u=function(a){return[0,Q(b,a)]};return cD(function(a){return dC(u,a)},s);case
 9:var
-v=a[1],x=function(a){return cr(b,a)};return cD(function(a){return dC(x,a)},v);default:return wB}},c)}function
+v=a[1],x=function(a){return cr(b,a)};return cD(function(a){return dC(x,a)},v);default:return wC}},c)}function
 hX(a){if(a){var
 b=a[1];if(b)var
 c=hX(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return wD}function
+d=b;return d}return wE}function
 e7(a){if(a){var
 g=a[1],b=g[2],c=hX(g[1]);if(c)if(b){var
 h=b[1],d=e7(a[2]);if(d)var
@@ -4823,23 +4828,23 @@ f=j}else
 var
 f=b;else
 var
-f=c;return f}return wE}function
+f=c;return f}return wF}function
 e8(b,a){var
 c=a[3],d=y(function(a){var
 c=a[2],d=a[1][2];return[0,[0,h(b,a[1][1]),d],c]},c),e=h(b,a[2]),f=a[1];return[0,h(aC(b),f),e,d]}function
 ki(c,g,f,b,a,e){if(b){var
 h=b[1],l=b[2],d=function(b,a){var
-d=gE(c,fE,fE,function(a){return pg(b,a)},e);return ki(c,g,aY(f),l,a,d)},i=d(0,aX(a,h));if(i){var
+d=gE(c,fE,fE,function(a){return ph(b,a)},e);return ki(c,g,aY(f),l,a,d)},i=d(0,aX(a,h));if(i){var
 j=d(2,G(a,h));if(j)return f?1:d(1,a);var
 k=j}else
 var
-k=i;return k}return au(g,a,gE(c,fE,fE,ph,e))}function
+k=i;return k}return au(g,a,gE(c,fE,fE,pi,e))}function
 kj(d,c,b,a){var
 f=X(e,b);function
 g(b){return a}return function(a){return ki(d,g,c,f,e,a)}}function
 dE(a){if(a){var
 b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return y(function(a){return aB(f,e,a)},d)}return[0,t]}function
-pj(f,e,k,j,i,a){var
+pk(f,e,k,j,i,a){var
 b=e7(a[1]);if(b){var
 c=a[2];if(c){var
 d=dE(a[3]);if(d){var
@@ -4850,14 +4855,14 @@ g=c;var
 h=g}else
 var
 h=b;return h}function
-pk(i,e,h,g,c){var
+pl(i,e,h,g,c){var
 a=e7(c[1]);if(a){var
 b=dE(c[3]);if(b){var
 j=X([0,B(t,b[1]),0],e),k=a[1];return aV(i,e,hk(h,g,d(function(a){return[0,a[1],t]},k),j))}var
 f=b}else
 var
 f=a;return f}function
-pl(a,c,D,i){var
+pm(a,c,D,i){var
 j=e7(i[1]);if(j){var
 k=i[2];if(k){var
 l=dE(i[3]);if(l){var
@@ -4882,51 +4887,51 @@ y=k;var
 z=y}else
 var
 z=j;return z}function
-wF(c){var
+wG(c){var
 a=c[2];if(a){var
 b=dE(c[3]);if(b)return D(e,B(a[1],b[1])[1]);var
 d=b}else
 var
 d=a;return d}function
 kk(a){return x(function(a){return g(a[1],[0,a[2],0])},a)}function
-pm(a,c,b){var
+pn(a,c,b){var
 d=q(b,c,n(e)),f=ax(0,a);return k(function(b){return e6(a,b,d)},f)}function
 gc(b){var
-c=_(b);return C(n(a),c)}function
+c=$(b);return C(n(a),c)}function
 hY(i,g){var
-h=gc(g),j=_(g),d=A(n(a),j),f=u(n(c(2,a)),g),b=n(e);return i?i[1]?[0,[0,d,bB(f),b],[0,f,d,b],[0,b,b,h]]:[0,[0,d,b,f],[0,b,h,b],[0,bB(f),b,d]]:[0,[0,h,b,b],[0,b,d,bB(f)],[0,b,f,d]]}function
+h=gc(g),j=$(g),d=A(n(a),j),f=u(n(c(2,a)),g),b=n(e);return i?i[1]?[0,[0,d,bB(f),b],[0,f,d,b],[0,b,b,h]]:[0,[0,d,b,f],[0,b,h,b],[0,bB(f),b,d]]:[0,[0,h,b,b],[0,b,d,bB(f)],[0,b,f,d]]}function
 gd(b,a){var
 c=ac(b[3],a),d=ac(b[2],a);return[0,ac(b[1],a),d,c]}function
-pn(b,a){function
+po(b,a){function
 c(b){var
 c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]}function
 d(a){var
 b=ac(a,c(function(a){return a[3]})),d=ac(a,c(function(a){return a[2]}));return[0,ac(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-po(v,t){function
+pp(v,t){function
 b(a){return[0,[0,P(t,a)]]}switch(v[0]){case
 0:var
-w=gc(b(0));return[0,hY(wG,b(0)),w];case
+w=gc(b(0));return[0,hY(wH,b(0)),w];case
 1:var
-x=gc(b(0)),y=u(gc(b(wH)),x),z=u(gc(b(wI)),y),B=hY(0,b(0)),D=pn(hY(wK,b(wJ)),B);return[0,pn(hY(wM,b(wL)),D),z];default:var
-E=b(wN),F=b(wO),g=[0,b(0),F,E],G=ac(g,g),H=C(n(a),G),j=ac(g,g),d=g[1],e=g[2],f=g[3],i=function(b){var
-d=_(b),e=u(n(c(2,a)),d);return C(A(n(a),j),e)},h=function(f,e,d,b){var
+x=gc(b(0)),y=u(gc(b(wI)),x),z=u(gc(b(wJ)),y),B=hY(0,b(0)),D=po(hY(wL,b(wK)),B);return[0,po(hY(wN,b(wM)),D),z];default:var
+E=b(wO),F=b(wP),g=[0,b(0),F,E],G=ac(g,g),H=C(n(a),G),j=ac(g,g),d=g[1],e=g[2],f=g[3],i=function(b){var
+d=$(b),e=u(n(c(2,a)),d);return C(A(n(a),j),e)},h=function(f,e,d,b){var
 g=au(f,u(e,d),b);return u(n(c(2,a)),g)},k=i(f),l=h(C,e,f,d),m=[0,h(A,d,f,e),l,k],o=h(A,e,f,d),p=i(e),q=[0,h(C,d,e,f),p,o],r=h(C,d,f,e),s=h(A,d,e,f);return[0,[0,[0,i(d),s,r],q,m],H]}}function
-pp(a){return 1<a[0]?[0,a[1],0]:0}function
+pq(a){return 1<a[0]?[0,a[1],0]:0}function
 hZ(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
 2:return[0,dA(a[1]),0];default:var
 b=[0,dA(a[2]),0];return[0,dA(a[1]),b]}}function
 e9(a){return[0,[0,a[1]],[0,a[2]]]}function
-pq(a){switch(a[0]){case
+pr(a){switch(a[0]){case
 0:return[0,e9(a[1]),0];case
 1:var
 f=[0,e9(a[3]),0],g=[0,e9(a[2]),f];return[0,e9(a[1]),g];case
 2:var
 b=e9(dA(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
 c=a[2],d=a[1],e=[0,[1,dA(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,e9(dA(c)),0]]]}}function
-pr(b,c){if(0===c[0]){var
+ps(b,c){if(0===c[0]){var
 g=c[1];return h(cB(b),g)}var
 i=c[1],d=h(cB(b),i);if(d){var
 j=c[2],e=h(cB(b),j);if(e){var
@@ -4934,9 +4939,9 @@ k=Q(b,e[1]),l=cr(b,w(K(b,a),k)),m=d[1];return y(function(a){return r(b,m,a)},l)}
 f=e}else
 var
 f=d;return f}function
-ps(d,c){var
-a=pr(d,c[1]);if(a)var
-b=pr(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+pt(d,c){var
+a=ps(d,c[1]);if(a)var
+b=ps(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
 kl(a,d,c){var
@@ -4944,29 +4949,29 @@ b=c[1];if(1===b[0]){var
 f=b[1];if(aF(f,a))return c;var
 g=n(e);return q(dP(f,a),d,g)}return[0,b9(function(b){return kl(a,d,b)},b)]}function
 h0(g,a,m,f,c){var
-h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=hG(h,c),j=bT(f),b=d(function(b){return kl(a,j,b)},i),k=q(wT,b,n(e)),l=q(wU,b,n(e));return[0,q(0,b,n(e)),l,k]}function
+h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=hG(h,c),j=bT(f),b=d(function(b){return kl(a,j,b)},i),k=q(wU,b,n(e)),l=q(wV,b,n(e));return[0,q(0,b,n(e)),l,k]}function
 bu(b,a){var
 c=u(b[2],a[1]),d=A(u(b[1],a[2]),c),e=u(b[1],a[3]),f=A(u(b[3],a[1]),e),g=u(b[3],a[2]);return[0,A(u(b[2],a[3]),g),f,d]}function
 eb(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
 km(c){function
 b(b){var
 d=m(c,b)?a:e;return n(d)}var
-d=b(wV),f=b(wW);return[0,b(0),f,d]}function
-pt(e,d,c){function
+d=b(wW),f=b(wX);return[0,b(0),f,d]}function
+pu(e,d,c){function
 b(a){return[0,km(a),0]}function
 a(a){return[0,br(bu(km(a),d),c),[0,a]]}switch(e){case
 0:var
-f=[0,a(wX),0],g=[0,b(wY),f];return[0,b(0),g];case
+f=[0,a(wY),0],g=[0,b(wZ),f];return[0,b(0),g];case
 1:var
-h=[0,a(wZ),0],i=[0,a(w0),h],j=[0,a(0),i],k=[0,b(w1),j],l=[0,b(w2),k];return[0,b(0),l];default:var
-m=[0,a(w3),0],n=[0,a(w4),m];return[0,a(0),n]}}function
-pu(b,g,f,x,o,l){var
+h=[0,a(w0),0],i=[0,a(w1),h],j=[0,a(0),i],k=[0,b(w2),j],l=[0,b(w3),k];return[0,b(0),l];default:var
+m=[0,a(w4),0],n=[0,a(w5),m];return[0,a(0),n]}}function
+pv(b,g,f,x,o,l){var
 h=l[1];function
 d(c,a){var
 d=h[3],f=eb(a,b[3]),g=u(C(c[3],f),d),i=h[2],j=eb(a,b[2]),k=u(C(c[2],j),i),l=h[1],m=eb(a,b[1]),o=u(C(c[1],m),l);return C(C(C(n(e),o),k),g)}var
-t=d(b[3],w5),v=d(b[2],w6),w=[0,d(b[1],0),v,t],i=ac(o[1],w),p=o[2];if(p){var
+t=d(b[3],w6),v=d(b[2],w7),w=[0,d(b[1],0),v,t],i=ac(o[1],w),p=o[2];if(p){var
 j=p[1],q=l[2];if(q){var
-k=q[1],y=eb(j,f),z=u(eb(k,g),y),B=eb(k,f),r=C(u(eb(j,g),B),z),D=_(x);if(m(j,k))var
+k=q[1],y=eb(j,f),z=u(eb(k,g),y),B=eb(k,f),r=C(u(eb(j,g),B),z),D=$(x);if(m(j,k))var
 E=ac(g,f),s=A(r,u(n(c(2,a)),E));else
 var
 s=r;return C(i,aj(s,D))}return i}return i}function
@@ -4977,42 +4982,42 @@ c=a;return c}function
 ge(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-pv(a){if(a){var
+pw(a){if(a){var
 f=a[1],b=f[2],c=hX(f[1]);if(c)if(b)var
-d=pv(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
+d=pw(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
 var
 e=b;else
 var
-e=c;return e}return w7}function
-pw(c,b,a){var
+e=c;return e}return w8}function
+px(c,b,a){var
 d=M(b,a);return an(function(a,d){var
 b=bR(a[2]);return w(r(c,a[1],[0,b,b]),d)},t,d)}function
-px(b,h,e,f,d){if(e)if(d)var
-i=d[1],o=px(b,h,e[2],f,d[2]),p=i[2],q=aw(h,i[1]),c=e[1],j=ak(r(b,c[3],f)),k=c[3],l=w(ak(bQ(p,K(b,a),k)),j),m=r(b,c[2],l),n=r(b,c[1],f),g=[0,bS(w(w(ak(pw(b,c[4],q)),n),m)),o];else
+py(b,h,e,f,d){if(e)if(d)var
+i=d[1],o=py(b,h,e[2],f,d[2]),p=i[2],q=aw(h,i[1]),c=e[1],j=ak(r(b,c[3],f)),k=c[3],l=w(ak(bQ(p,K(b,a),k)),j),m=r(b,c[2],l),n=r(b,c[1],f),g=[0,bS(w(w(ak(px(b,c[4],q)),n),m)),o];else
 var
 g=d;else
 var
 g=e;return g}function
-w9(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
-py(b,a){return ad(d(function(a){return q(a,b,0)},a))}function
+w_(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
+pz(b,a){return ad(d(function(a){return q(a,b,0)},a))}function
 bZ(a){switch(a){case
-0:return xb;case
-1:return xc;default:return 0}}function
+0:return xc;case
+1:return xd;default:return 0}}function
 ec(a){switch(a){case
-0:return[0,xe,xd,n(e)];case
+0:return[0,xf,xe,n(e)];case
 1:return dZ;default:var
 b=n(e),c=n(e);return[0,n(e),c,b]}}function
 h1(c,b,a){return br(gd(c,a),b)}function
-pz(b,a){if(b)return[0,[0,[0,a]],[0,[0,[0,a]]],[0,[0,[0,[0,a]]]]];var
+pA(b,a){if(b)return[0,[0,[0,a]],[0,[0,[0,a]]],[0,[0,[0,[0,a]]]]];var
 c=n(e);return[0,n(e),c,[0,[0,a]]]}function
 ko(b){var
 d=ac(b,b),e=C(n(a),d);return aj(n(c(2,a)),e)}function
-pA(a,b){var
+pB(a,b){var
 c=bu(a,b),d=ah(C,c,bu(a,c));return ah(C,b,a$(ko(a),d))}function
-pB(h,g,f,e,d,c){var
-b=pA(c,h1(g,f,d)),a=ah(A,ah(C,ec(h),b),e);return[0,[0,b,a],aR(ac(a,a))]}function
+pC(h,g,f,e,d,c){var
+b=pB(c,h1(g,f,d)),a=ah(A,ah(C,ec(h),b),e);return[0,[0,b,a],aR(ac(a,a))]}function
 as(a){return typeof
-a==="number"?a?xf:xg:bM(a[1])}function
+a==="number"?a?xg:xh:bM(a[1])}function
 kp(b,a,c){return typeof
 b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:ke(b[1],a,c)}function
 ed(b){if(0===b[0]){var
@@ -5022,7 +5027,7 @@ c=b[1];switch(c[0]){case
 ee(b,c,a){return b?dz(b[1],c,a):a}function
 bl(d,c,b,a){var
 e=ed(a),f=ee(d,c,ed(a)),g=O(function(b,a){return[2,b,a]},b,f);return O(function(b,a){return[3,b,a]},g,e)}function
-pC(h,g,d,c,f,b){if(0===b[0])var
+pD(h,g,d,c,f,b){if(0===b[0])var
 i=bl(d,c,f,b),e=cc(b[1],i);else
 var
 j=bl(d,c,f,b),e=kc(b[1],j);return kp(h,e,T([5,[0,a,a],g],cA(ee(d,c,ed(b)),e)))}function
@@ -5038,14 +5043,14 @@ d=c;return d}function
 kr(e,d,c,a){if(0===a[0]){var
 f=bl(e,d,c,a),b=j4(a[1],f),g=b?[0,b[1],0]:b;return g}var
 h=bl(e,d,c,a);return[0,j_(a[1],h),0]}function
-pD(b,f,d){if(0===f[0])return 0===d[0]?oL(b,f[1],d[1]):0;if(0===d[0])return 0;var
+pE(b,f,d){if(0===f[0])return 0===d[0]?oM(b,f[1],d[1]):0;if(0===d[0])return 0;var
 a=d[1],c=f[1],g=bD(b,c[1],a[1]),h=g?bD(b,c[2],a[2]):g,j=h?bD(b,c[3],a[3]):h,k=j?bD(b,c[4],a[4]):j,l=k?dx(b,c[5],a[5]):k,m=l?dx(b,c[6],a[6]):l,n=m?i(b,1,a[5]):m,o=n?i(b,1,a[6]):n,p=o?i(b,1,v(a[1],a[1])):o;if(p)var
 q=j9(a),e=i(b,1,v(j9(a),q));else
 var
 e=p;return e?cp(c[7],a[7]):e}function
 e$(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=pD(g,b[1],a[1]);if(c){var
+c=pE(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
@@ -5057,8 +5062,8 @@ f=1}else
 var
 f=d;return f}function
 gf(a){return typeof
-a==="number"?xh:2<=a[1]?xi:xj}function
-pE(v,m,l){if(l){var
+a==="number"?xi:2<=a[1]?xj:xk}function
+pF(v,m,l){if(l){var
 b=l[1],d=function(c,b){return i(v,1,[3,[0,b,a],c])},g=function(a){return[3,a[2],a[1]]};switch(b[0]){case
 0:var
 n=c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),f=d(g(b[1]),n);break;case
@@ -5106,7 +5111,7 @@ d=a[1];continue;case
 6:var
 f=h3(c,b,a[1]);if(f){var
 d=a[2];continue}return f;default:return 1}}}function
-pF(d){var
+pG(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 0:case
@@ -5117,17 +5122,17 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-c=pF(a[1]);if(c){var
+c=pG(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-pG(c,b,a){var
+pH(c,b,a){var
 e=d(b,a[2]);return[0,h(c,a[1]),e]}function
 ks(b,a,c){return d(function(c){var
-e=pG(b,a,c[2]),f=c[1];return[0,d(function(c){return pG(b,a,c)},f),e]},c)}function
-pH(b,a){return y(function(a){var
+e=pH(b,a,c[2]),f=c[1];return[0,d(function(c){return pH(b,a,c)},f),e]},c)}function
+pI(b,a){return y(function(a){var
 c=a[2],d=a[1][2];return[0,[0,h(b,a[1][1]),d],c]},a)}function
-xk(a,b){var
-c=pH(a,b[3]),d=h(a,b[2]);return[0,ks(a,a,b[1]),d,c]}function
-pI(c){var
+xl(a,b){var
+c=pI(a,b[3]),d=h(a,b[2]);return[0,ks(a,a,b[1]),d,c]}function
+pJ(c){var
 a=c[1];if(a){var
 b=hX(c[2]);if(b)var
 g=d(R,b[1]),e=[0,[0,R(a[1]),g]];else
@@ -5136,21 +5141,21 @@ e=b;var
 f=e}else
 var
 f=a;return f}function
-xl(c){var
-a=ad(d(pI,c[1]));if(a)var
-b=pI(c[2]),f=b?[0,[0,a[1],b[1]]]:b,e=f;else
+xm(c){var
+a=ad(d(pJ,c[1]));if(a)var
+b=pJ(c[2]),f=b?[0,[0,a[1],b[1]]]:b,e=f;else
 var
 e=a;return e}function
-xm(a){return J(fQ([0,a[2],a[1]]))}function
+xn(a){return J(fQ([0,a[2],a[1]]))}function
 kt(a){return[0,a[1],a[2]]}function
-pJ(b,c,a){var
+pK(b,c,a){var
 e=d(function(c){return bN(b,ce(c,a))},c);return[0,bN(b,a),e]}function
 ku(b,e,a,d){var
 c=x(function(a){var
 b=kt(a[2]);return g(x(kt,a[1]),b)},d),f=a?[0,bN(b,a[1]),0]:a,h=g(f,c);return[0,bN(b,e),h]}function
-pK(c,f,b,a){var
+pL(c,f,b,a){var
 d=h3(f,b,a),e=d?hV(c,a):d;return e?k(function(b){return hV(c,ce(b,a))},b):e}function
-pL(a){switch(a[0]){case
+pM(a){switch(a[0]){case
 3:var
 d=kk(a[2]);return[0,a[3],d];case
 4:return[0,a[1],0];case
@@ -5158,26 +5163,26 @@ d=kk(a[2]);return[0,a[3],d];case
 b=a[1],e=kk(b[1]);return[0,b[2],e];case
 9:return 0;default:var
 c=kk(a[1]);return[0,a[2],c]}}function
-pM(b,au,bc,l,o,at,as,x,P,j,i){switch(j[0]){case
+pN(b,au,bc,l,o,at,as,x,P,j,i){switch(j[0]){case
 0:var
 av=j[4],S=j[3],aw=j[2],ax=j[1],V=0;if(typeof
 i==="number")V=1;else
 switch(i[0]){case
 0:var
-bd=i[2],be=i[1],u=aw,t=ax,s=function(a){return pj(b,o,be,bd,S,a)},p=av;break;case
+bd=i[2],be=i[1],u=aw,t=ax,s=function(a){return pk(b,o,be,bd,S,a)},p=av;break;case
 2:var
 ay=H(S[1],e),az=ay?H(S[2],e):ay;if(!az)return az;var
-bh=i[2],bi=i[1],u=aw,t=ax,s=function(a){return pk(b,o,bi,bh,a)},p=av;break;default:V=1}if(V)return 0;break;case
+bh=i[2],bi=i[1],u=aw,t=ax,s=function(a){return pl(b,o,bi,bh,a)},p=av;break;default:V=1}if(V)return 0;break;case
 1:var
 aK=0;if(typeof
 i==="number"&&!i)var
-bj=j[2],bk=j[1],bl=j[3],u=bj,t=bk,bm=0,s=function(a){return pl(b,o,bl,a)},p=bm;else
+bj=j[2],bk=j[1],bl=j[3],u=bj,t=bk,bm=0,s=function(a){return pm(b,o,bl,a)},p=bm;else
 aK=1;if(aK)return 0;break;case
 2:if(typeof
 i!=="number"&&3===i[0]){var
 z=i[3];if(z){var
 aA=z[2],aC=m(f(aA),l);if(aC){var
-bn=[0,j[1],j[2],P],bo=e8(function(a){return q(a,x,xp)},bn),aD=i[1],bp=0,br=z[1],bs=i[2],bt=j[3],bu=function(x,i){var
+bn=[0,j[1],j[2],P],bo=e8(function(a){return q(a,x,xq)},bn),aD=i[1],bp=0,br=z[1],bs=i[2],bt=j[3],bu=function(x,i){var
 c=e7(i[1]);if(c){var
 j=c[1],d=i[2];if(d){var
 f=dE(i[3]);if(f){var
@@ -5220,14 +5225,14 @@ l=a;return l},u=bv,t=bw,s=bz,p=j[5];if(aM)return 0;break;case
 4:var
 aN=0;if(typeof
 i==="number"&&!i)var
-u=j[1],t=0,s=wF,p=0;else
+u=j[1],t=0,s=wG,p=0;else
 aN=1;if(aN)return 0;break;case
 5:var
 aO=0;if(typeof
 i==="number"||!(0===i[0]))aO=1;else{var
 A=i[2],aP=0;if(A){var
 C=A[1];if(C){if(C[2])return 0;if(A[2])return 0;var
-bA=j[2],bB=j[1],bD=K(b,a),bE=[0,[0,C[1],0],0],bF=i[1],u=bA,t=bB,bG=0,s=function(a){return pj(b,xq,bF,bE,bD,a)},p=bG;aP=1}else
+bA=j[2],bB=j[1],bD=K(b,a),bE=[0,[0,C[1],0],0],bF=i[1],u=bA,t=bB,bG=0,s=function(a){return pk(b,xr,bF,bE,bD,a)},p=bG;aP=1}else
 var
 aI=C}else
 var
@@ -5235,30 +5240,30 @@ aI=A;if(!aP)return aI}if(aO)return 0;break;case
 6:var
 aQ=0;if(typeof
 i==="number"&&!i)var
-bH=j[2],bI=j[1],bJ=K(b,a),u=bH,t=bI,bK=0,s=function(a){return pl(b,xr,bJ,a)},p=bK;else
+bH=j[2],bI=j[1],bJ=K(b,a),u=bH,t=bI,bK=0,s=function(a){return pm(b,xs,bJ,a)},p=bK;else
 aQ=1;if(aQ)return 0;break;case
 7:var
 aR=0;if(typeof
 i==="number"&&5<=i)var
-bL=j[2],bM=j[1],bN=j[4],bO=j[3],u=bL,t=bM,bR=0,s=function(a){return pk(b,o,bO,bN,a)},p=bR;else
+bL=j[2],bM=j[1],bN=j[4],bO=j[3],u=bL,t=bM,bR=0,s=function(a){return pl(b,o,bO,bN,a)},p=bR;else
 aR=1;if(aR)return 0;break;case
 8:if(typeof
 i!=="number"&&9===i[0]){var
-T=i[4],aJ=i[2],U=i[1],n=j[1],v=n[9],bT=i[3],aS=n[5],aT=bC(g(cQ(n[4]),aS),au),aU=d(R,bc),W=dk(0,b_(b,nK(n[9],l,at,n[7],n[8]),aU),aT,au),Y=mH(T,e);if(Y)var
+T=i[4],aJ=i[2],U=i[1],n=j[1],v=n[9],bT=i[3],aS=n[5],aT=bC(g(cQ(n[4]),aS),au),aU=d(R,bc),W=dk(0,b_(b,nL(n[9],l,at,n[7],n[8]),aU),aT,au),Y=mI(T,e);if(Y)var
 D=Y;else
 var
-aq=mI(T,c(2,c(2,c(2,c(2,a))))),ar=aq?aF(0,v):aq,D=ar?aF(v,l):ar;var
+aq=mJ(T,c(2,c(2,c(2,c(2,a))))),ar=aq?aF(0,v):aq,D=ar?aF(v,l):ar;var
 Z=D?ae(v,l):D,_=Z?m(f(at),l):Z,$=_?m(f(aJ),l):_,aa=$?m(f(n[1]),l):$,ab=aa?m(f(n[6]),l):aa,ac=ab?m(f(n[4]),l):ab;if(ac)var
 aW=n[4],E=k(function(a){return m(f(a),l)},aW);else
 var
 E=ac;if(E){var
-aX=n[4],F=ad(d(function(a){return py(W,a)},aX));if(F){var
-af=py(W,n[5]);if(af){var
+aX=n[4],F=ad(d(function(a){return pz(W,a)},aX));if(F){var
+af=pz(W,n[5]);if(af){var
 aZ=n[6],G=ad(d(function(j){var
 c=j[1],k=n[7],e=q(c[1],as,0);if(e){var
 h=c[2][2],a=ad(d(function(a){var
 b=q(a[2],as,0);return y(function(a){return a[2]},b)},h));if(a)var
-i=a[1],f=[0,bS(ak(r(b,k,Q(b,pw(b,d(ap,c[2][2]),i)))))];else
+i=a[1],f=[0,bS(ak(r(b,k,Q(b,px(b,d(ap,c[2][2]),i)))))];else
 var
 f=a;var
 g=f}else
@@ -5266,8 +5271,8 @@ var
 g=e;return g},aZ));if(G){var
 a0=n[1],a1=n[2],J=ad(d(function(m){function
 f(e){var
-g=X(e,l),c=pi(q(m[2],x,w_),g);if(c){var
-h=X(e,l),d=pi(q(a1,x,w$),h);if(d){var
+g=X(e,l),c=pj(q(m[2],x,w$),g);if(c){var
+h=X(e,l),d=pj(q(a1,x,xa),h);if(d){var
 i=d[1],j=K(b,a);return cr(b,bq(bQ(c[1],j,i)))}var
 f=d}else
 var
@@ -5280,15 +5285,15 @@ i=d;var
 j=i}else
 var
 j=c;return j},a0));if(J){var
-ag=nE(b,l,v,F[1]),L=aB(bT,U,K(b,a)),ah=I(e,B(L,ag)[1]);if(ah){var
+ag=nF(b,l,v,F[1]),L=aB(bT,U,K(b,a)),ah=I(e,B(L,ag)[1]);if(ah){var
 O=bP(b,L);if(O){var
-a2=ak(r(b,ag,O[1])),a3=B(K(b,a),a2),a5=[0,n[1],n[2],P],a6=e8(function(a){return q(a,x,xa)},a5),a7=n[6],a8=d(w9,M(M(G[1],J[1]),a7)),a9=Q(b,a3),a_=Q(b,L),a$=nF(l,v,n[10],T),ba=function(n){var
-a=pv(n[1]);if(a){var
+a2=ak(r(b,ag,O[1])),a3=B(K(b,a),a2),a5=[0,n[1],n[2],P],a6=e8(function(a){return q(a,x,xb)},a5),a7=n[6],a8=d(w_,M(M(G[1],J[1]),a7)),a9=Q(b,a3),a_=Q(b,L),a$=nG(l,v,n[10],T),ba=function(n){var
+a=pw(n[1]);if(a){var
 o=a[1],c=n[2];if(c){var
 e=c[1],h=dE(n[3]);if(h){var
-p=h[1],q=px(b,l,a8,e,o),i=d(function(a){var
-b=a[2];return[0,nG(a$,a[1]),b]},o),z=d0(U,d1(U,aJ,e,i)),j=aL(X([0,N(p),0],l),z),A=B(r(b,e,a9),p),s=m(f(i),l),t=s?m(f(q),l):s,u=t?nI(l,j):t,v=u?aV(b,l,aL(d(function(a){return[0,N(r(b,a_,a[2])),0]},i),j)):u;if(v){var
-C=a4(aY(l));return k(function(a){return aV(b,[0,l],nH(j,nJ(g(a,w8),q),A))},C)}var
+p=h[1],q=py(b,l,a8,e,o),i=d(function(a){var
+b=a[2];return[0,nH(a$,a[1]),b]},o),z=d0(U,d1(U,aJ,e,i)),j=aL(X([0,N(p),0],l),z),A=B(r(b,e,a9),p),s=m(f(i),l),t=s?m(f(q),l):s,u=t?nJ(l,j):t,v=u?aV(b,l,aL(d(function(a){return[0,N(r(b,a_,a[2])),0]},i),j)):u;if(v){var
+C=a4(aY(l));return k(function(a){return aV(b,[0,l],nI(j,nK(g(a,w9),q),A))},C)}var
 w=v}else
 var
 w=h;var
@@ -5316,36 +5321,36 @@ an=F;var
 ao=an}else
 var
 ao=E;return ao}return 0;default:return 0}var
-bf=[0,t,u,P],bg=e8(function(a){return q(a,x,xo)},bf);return h(kj(function(b,a){return e8},p,l,s),bg)}function
-xs(b,a){var
+bf=[0,t,u,P],bg=e8(function(a){return q(a,x,xp)},bf);return h(kj(function(b,a){return e8},p,l,s),bg)}function
+xt(b,a){var
 c=jn(g2,b[1],a[1]);return c?g2(b[2],a[2]):c}function
-pN(c,b){var
-a=jn(xs,c,b),d=a?1:a;return d}function
-pO(j,s,r,i,q,k,p,o,n,h,l,g,b,d){if(typeof
+pO(c,b){var
+a=jn(xt,c,b),d=a?1:a;return d}function
+pP(j,s,r,i,q,k,p,o,n,h,l,g,b,d){if(typeof
 d==="number"){if(0===d)return 9===b[0]?eX(j,0,0,0,g,i,0,b[1],d):0}else
 switch(d[0]){case
 6:var
 f=d[1];if(typeof
 f!=="number"&&7===f[0]){if(k){var
-t=f[3],u=f[2],v=D(e,u),w=v?fG(t,c(2,c(2,c(2,c(2,c(2,c(2,a))))))):v;if(w)return pM(j,s,r,i,q,h,g,l,[0,[0,[0,k[1],u],t]],b,f[1]);var
+t=f[3],u=f[2],v=D(e,u),w=v?fG(t,c(2,c(2,c(2,c(2,c(2,c(2,a))))))):v;if(w)return pN(j,s,r,i,q,h,g,l,[0,[0,[0,k[1],u],t]],b,f[1]);var
 x=w}else
 var
-x=k;return x}return pM(j,s,r,i,q,h,g,l,0,b,f);case
+x=k;return x}return pN(j,s,r,i,q,h,g,l,0,b,f);case
 8:return 9===b[0]?eX(j,0,0,0,g,i,0,b[1],d):0;case
 10:if(0===b[0]){var
-y=pN(b[1],p),z=y?m(b[2],o):y;return z?gE(n,h,b[3],b[4],d):z}return 0;case
+y=pO(b[1],p),z=y?m(b[2],o):y;return z?gE(n,h,b[3],b[4],d):z}return 0;case
 12:if(0===b[0]){var
-A=pN(b[1],p),B=A?m(b[2],o):A;return B?gE(n,h,b[3],b[4],d):B}return 0}return 0}function
-pP(b){var
+A=pO(b[1],p),B=A?m(b[2],o):A;return B?gE(n,h,b[3],b[4],d):B}return 0}return 0}function
+pQ(b){var
 a=b[2];if(typeof
 a!=="number"&&6===a[0])return 1;return 0}function
-xt(c){var
+xu(c){var
 b=0,a=c[2];if(typeof
 a==="number"){if(0!==a)b=1}else
 switch(a[0]){case
 6:case
 8:break;default:b=1}return b?0:1}function
-xu(a){switch(a[0]){case
+xv(a){switch(a[0]){case
 8:return 0;case
 9:return jV(a[1]);default:return 1}}function
 gg(a,o,m,j,A,z,b,v,u,D,i,l,aq,c){switch(c[0]){case
@@ -5355,31 +5360,31 @@ ar=function(a){return k(J,a)},R=ar,p=c[1];break;case
 as=c[4],at=c[3],au=c[2],av=function(c){var
 d=ds(au,l),e=gg(a,o,m,j,A,z,b,v,u,D,i,d[1],c,at);return e?gg(a,o,m,j,A,z,b,v,u,D,i,d[2],c,as):e},R=av,p=c[1];break;default:var
 aw=c[4],ax=c[3],ay=c[2],az=function(c){var
-d=ou(xu,j,c);if(d){var
+d=ov(xv,j,c);if(d){var
 e=ds(ay,i),f=gg(a,o,m,j,A,z,b,v,u,D,e[1],l,c,ax);if(f)return gg(a,o,m,j,A,z,b,v,u,D,e[2],l,c,aw);var
 g=f}else
 var
 g=d;return g},R=az,p=c[1]}var
-ae=h(D,i),ab=ag(xt,p),ac=ab?jQ(a,m,i,bC(x(function(c){var
+ae=h(D,i),ab=ag(xu,p),ac=ab?jQ(a,m,i,bC(x(function(c){var
 a=F(j,c[1]);if(a){var
 b=a[1];switch(b[0]){case
 8:var
 e=b[1][6];return x(function(a){var
 b=d(aE,a[1][2][2]);return[0,a[1][1],b]},e);case
-9:return eY(0,0,0,b[1],c[2]);default:return 0}}return a},p),m),l):ab,ad=ag(pP,p);if(ad)var
+9:return eY(0,0,0,b[1],c[2]);default:return 0}}return a},p),m),l):ab,ad=ag(pQ,p);if(ad)var
 an=x(function(b){var
-c=pP(b);if(c){var
-a=F(j,b[1]);if(a)return pL(a[1]);var
+c=pQ(b);if(c){var
+a=F(j,b[1]);if(a)return pM(a[1]);var
 d=a}else
 var
-d=c;return d},p),ao=b?[0,b[1],0]:b,ai=m3(g(ao,an),o),P=kh(a,i,eI(hW(eI(o,0),ai),0),l);else
+d=c;return d},p),ao=b?[0,b[1],0]:b,ai=m4(g(ao,an),o),P=kh(a,i,eI(hW(eI(o,0),ai),0),l);else
 var
 P=ad;var
 s=p,f=aq;for(;;){if(s){var
 U=s[1],E=U[2],n=U[1],H=s[2];if(n){var
 V=q(n,f,0);if(V){var
 L=F(j,n);if(L){var
-W=pO(a,m,i,A,z,b,v,u,ae,l,P,ac,L[1],E);if(W){var
+W=pP(a,m,i,A,z,b,v,u,ae,l,P,ac,L[1],E);if(W){var
 s=H,f=hF(n,f);continue}var
 X=W}else
 var
@@ -5421,7 +5426,7 @@ C=M}else
 af=1;if(af){var
 Z=q(n,f,0);if(Z){var
 O=F(j,n);if(O){var
-_=pO(a,m,i,A,z,b,v,u,ae,l,P,ac,O[1],E);if(_){var
+_=pP(a,m,i,A,z,b,v,u,ae,l,P,ac,O[1],E);if(_){var
 s=H,f=hF(n,f);continue}var
 $=_}else
 var
@@ -5433,26 +5438,26 @@ C=aa}}}else
 var
 C=[0,f];return C?R(C[1]):C}}function
 kv(d,b){var
-e=_(b),f=u(u(n(c(2,a)),b),d);return C(A(_(d),f),e)}function
+e=$(b),f=u(u(n(c(2,a)),b),d);return C(A($(d),f),e)}function
 kw(k,a,d,j,c,i){var
 e=ah(A,ec(k),j);if(i){var
 b=function(b){var
 c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=gd([0,b(function(a){return a[1]}),g,f],e);return ah(C,a$(d,c),l)}var
 m=gd(a,c);return ah(C,a$(d,e),m)}function
-pQ(f,h,g,k,b,d){var
+pR(f,h,g,k,b,d){var
 e=ec(f),i=ah(A,e,b),j=gd(h,d),l=kv(e[3],b[3]),m=kv(e[2],b[2]),o=kv(e[1],b[1]),p=C(C(C(ac(d,d),o),m),l),q=ac(j,i),r=u(n(c(2,a)),q),s=C(u(g,p),r),t=br(bu(j,i),k);return[0,ge(f,kw(f,h,g,b,d,0),t),s]}function
-pR(d,c,b,a){var
+pS(d,c,b,a){var
 e=h1(c,b,a);return ah(C,ec(d),e)}function
-pS(g,f,e,d,c){var
-b=pR(g,f,e,c),a=ah(A,b,d);return[0,[0,b,a],aR(ac(a,a))]}function
+pT(g,f,e,d,c){var
+b=pS(g,f,e,c),a=ah(A,b,d);return[0,[0,b,a],aR(ac(a,a))]}function
 h4(b,a){var
 c=bi(a[2],b);return g(bi(a[1],b),c)}function
 kx(d,b,a,c){if(a)var
-e=a[1],g=cy(c,h4(b,e)),i=P(c,f(h4(b,e))),j=kx(d,b,a[2],i),k=ar(g,xv),h=[0,au(d,ar(g,0),k),j];else
+e=a[1],g=cy(c,h4(b,e)),i=P(c,f(h4(b,e))),j=kx(d,b,a[2],i),k=ar(g,xw),h=[0,au(d,ar(g,0),k),j];else
 var
 h=a;return h}function
 ky(f,o,d,m,a){var
-g=u(_(q(0,m,n(e))),o);if(typeof
+g=u($(q(0,m,n(e))),o);if(typeof
 a!=="number")switch(a[0]){case
 2:var
 b=F(d,a[1]);if(b)var
@@ -5464,30 +5469,30 @@ c=F(d,a[1]);if(c)var
 k=i(f,0,a[2]),l=k?[0,A(g,c[1][1][2])]:k;else
 var
 l=c;return l}return 0}function
-pT(c,b,a){if(typeof
+pU(c,b,a){if(typeof
 a!=="number"&&6===a[0]){var
 d=F(c,a[1]);return y(function(a){var
 c=q(0,b,n(e)),d=h(a[2][2],c);return[0,a[2][1],d]},d)}return 0}function
 h5(b){return i(j,0,[3,[0,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a))))))))),a],b])}function
-pU(a){var
-b=ar(a,xw),c=aR(ac(ar(a,xx),b));return u(q(0,a,n(e)),c)}function
-pV(b,a){var
-c=ac(a,ar(b,xy));return[0,bT(a$(pU(b),a)),c]}function
-pW(e,d,a,c,b){var
-f=b[2],g=u(pU(a),f),h=c?h1(e,d,ar(a,xz)):ar(a,xA);return A(ac(b[1][2],h),g)}function
-pX(h,g,f,e,c,b,a){var
+pV(a){var
+b=ar(a,xx),c=aR(ac(ar(a,xy),b));return u(q(0,a,n(e)),c)}function
+pW(b,a){var
+c=ac(a,ar(b,xz));return[0,bT(a$(pV(b),a)),c]}function
+pX(e,d,a,c,b){var
+f=b[2],g=u(pV(a),f),h=c?h1(e,d,ar(a,xA)):ar(a,xB);return A(ac(b[1][2],h),g)}function
+pY(h,g,f,e,c,b,a){var
 i=by(c);function
-j(a){return pR(h,g,f,a)}return oA(d(function(a){return[0,a[4]]},e),j,i,b,a)}function
+j(a){return pS(h,g,f,a)}return oB(d(function(a){return[0,a[4]]},e),j,i,b,a)}function
 ef(a){var
-b=q(xB,a,n(e));return aj(q(0,a,n(e)),b)}function
+b=q(xC,a,n(e));return aj(q(0,a,n(e)),b)}function
 kz(a){return a[4][2]}function
-pY(f,o,m,l,b){var
+pZ(f,o,m,l,b){var
 p=b[1][2],q=d(aE,f2(m,b[1][2])),h=ef(l),i=u(u(n(c(2,a)),o),h),e=b[1][1],j=aw(bZ(f),e),k=d(function(a){return u(a,i)},j);return[0,g(g(ao(bZ(f),e),k),q),p]}function
-pZ(a){var
+p0(a){var
 b=a[3],c=a[2],d=a[1];return hQ([0,[0,d,d],[0,c,c],[0,b,b]])}function
-xK(a){if(typeof
+xL(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-p0(b,a){switch(b){case
+p1(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
 h6(b){var
@@ -5498,41 +5503,41 @@ kA(d,a){switch(d){case
 b=h6(a[1]),c=b?h6(a[2]):b;return c?h6(a[3]):c}}function
 kB(c,b){var
 a=x(function(a){return h4(c,a)},b),e=M(ax(0,f(a)),a);return d(ap,aN(function(a){return j1(a[2])},e))}function
-p1(b){var
+p2(b){var
 a=b[2];if(typeof
 a!=="number")switch(a[0]){case
 10:case
 12:return 1}return 0}function
-p2(c){var
-a=c;for(;;){if(0===a[0])return ag(p1,a[1]);var
-d=ag(p1,a[1]),b=d||p2(a[3]);if(b)return b;var
+p3(c){var
+a=c;for(;;){if(0===a[0])return ag(p2,a[1]);var
+d=ag(p2,a[1]),b=d||p3(a[3]);if(b)return b;var
 a=a[4];continue}}function
-xL(b,aT,bB,B,E,aS){var
-o=B[1],l=bM(o),$=B[6],bC=B[2],R=x(function(a){return h4(E,a)},bC),aU=B[3],V=[0,[0,aU,aU],E],ae=[0,f(R)],bD=0,aW=x(function(a){return gb(bD,E,a)},$),bE=bZ(o),aX=po(B[5],bE),p=aX[2],I=aX[1],O=bV(V,f(R)),bG=B[2],W=f(R),bF=0,z=kx(function(c,b){function
+xM(b,aT,bB,B,E,aS){var
+o=B[1],l=bM(o),_=B[6],bC=B[2],R=x(function(a){return h4(E,a)},bC),aU=B[3],V=[0,[0,aU,aU],E],ae=[0,f(R)],bD=0,aW=x(function(a){return gb(bD,E,a)},_),bE=bZ(o),aX=pp(B[5],bE),p=aX[2],I=aX[1],O=bV(V,f(R)),bG=B[2],W=f(R),bF=0,z=kx(function(c,b){function
 h(e){var
-a=pz(o,bM(o)),m=pB(o,I,p,c,b,a)[2],f=pB(o,I,p,c,b,a),g=f[1],h=br(g[2],f[2]),i=bu(g[1],h),j=ah(C,i,bu(i,a)),d=a$(ko(a),j),k=u(d[3],e),l=u(d[2],e);return[0,ge(o,h,[0,u(d[1],e),l,k]),m]}function
+a=pA(o,bM(o)),m=pC(o,I,p,c,b,a)[2],f=pC(o,I,p,c,b,a),g=f[1],h=br(g[2],f[2]),i=bu(g[1],h),j=ah(C,i,bu(i,a)),d=a$(ko(a),j),k=u(d[3],e),l=u(d[2],e);return[0,ge(o,h,[0,u(d[1],e),l,k]),m]}function
 i(F){var
-k=pS(o,I,p,c,b),l=k[1],D=ah(A,ec(o),c),m=k[2],i=l[1],E=l[2],d=h1(I,p,b),h=br(E,m),u=aj(ac(d,h),O),v=_(O),w=aj(ac(b,b),v),x=2<=o?e:a,y=C(n(x),w),z=pt(o,d,O),f=ah(A,[0,[0,[1,W]],[0,[1,[0,W]]],[0,[1,[0,[0,W]]]]],c),g=br(f,aR(ac(f,f)));if(o)var
+k=pT(o,I,p,c,b),l=k[1],D=ah(A,ec(o),c),m=k[2],i=l[1],E=l[2],d=h1(I,p,b),h=br(E,m),u=aj(ac(d,h),O),v=$(O),w=aj(ac(b,b),v),x=2<=o?e:a,y=C(n(x),w),z=pu(o,d,O),f=ah(A,[0,[0,[1,W]],[0,[1,[0,W]]],[0,[1,[0,[0,W]]]]],c),g=br(f,aR(ac(f,f)));if(o)var
 j=h0(o,W,c,i,g[3]);else
 var
 s=n(e),t=n(e),j=[0,n(e),t,s];var
-q=h0(o,W,c,i,g[2]),r=[0,h0(o,W,c,i,g[1]),q,j],B=kn(function(a,b){return pu(r,h,d,O,a,b)},z);return[0,ge(o,h,br(bu(d,br(D,m)),O)),B,y,u]}var
-j=pS(o,I,p,c,b);function
+q=h0(o,W,c,i,g[2]),r=[0,h0(o,W,c,i,g[1]),q,j],B=kn(function(a,b){return pv(r,h,d,O,a,b)},z);return[0,ge(o,h,br(bu(d,br(D,m)),O)),B,y,u]}var
+j=pT(o,I,p,c,b);function
 k(a){return kw(o,I,p,c,b,a)}var
 d=2<=o?e:a;function
 f(a){var
-c=_(O),e=n(d),f=u(A(_(a),e),c);return u(p,A(ac(b,b),f))}var
-g=[0,ac(kw(o,I,p,c,b,1),b),f];return[0,pQ(o,I,p,O,c,b),g,k,j,i,h]},E,bG,bF),Y=d(function(a){return a[1]},z),bH=P(ae,f(aW)),bI=bZ(o),bJ=B[5];function
+c=$(O),e=n(d),f=u(A($(a),e),c);return u(p,A(ac(b,b),f))}var
+g=[0,ac(kw(o,I,p,c,b,1),b),f];return[0,pR(o,I,p,O,c,b),g,k,j,i,h]},E,bG,bF),Y=d(function(a){return a[1]},z),bH=P(ae,f(aW)),bI=bZ(o),bJ=B[5];function
 U(a){return[0,[0,P(bI,a)]]}var
-aK=_([0,[1,bH]]);switch(bJ[0]){case
+aK=$([0,[1,bH]]);switch(bJ[0]){case
 2:var
-bq=U(wP),bs=U(wQ),aL=[0,U(0),bs,bq],G=[0,A(aK,ac(aL,aL))];break;case
+bq=U(wQ),bs=U(wR),aL=[0,U(0),bs,bq],G=[0,A(aK,ac(aL,aL))];break;case
 3:var
-bt=_(U(wR)),bv=_(U(0)),bw=_(U(wS)),G=[0,A(A(u(aK,C(n(a),bw)),bv),bt)];break;default:var
+bt=$(U(wS)),bv=$(U(0)),bw=$(U(wT)),G=[0,A(A(u(aK,C(n(a),bw)),bv),bt)];break;default:var
 G=0}var
 aY=B[7];if(aY)var
 bL=0,bO=B[2],ao=kx(function(k,t){var
-a=pQ(o,I,p,bV(V,f(R)),k,t);switch(o){case
+a=pR(o,I,p,bV(V,f(R)),k,t);switch(o){case
 0:var
 c=a[1];if(c){var
 l=c[2],d=c[1];if(l){var
@@ -5547,7 +5552,7 @@ ao=aY;var
 bP=bK(ao),bQ=G?[0,G[1],0]:G,bR=g(bQ,bP),bS=0,bU=g(R,[0,V,0]),bA=d(function(a){return a[1]},z),bW=[0,p,g(dB(function(c,a){if(typeof
 a!=="number")switch(a[0]){case
 6:var
-f=pT(z,c,a);if(f)var
+f=pU(z,c,a);if(f)var
 j=f[1],k=[0,j[1],[0,j[2],0]];else
 var
 k=f;return k;case
@@ -5555,28 +5560,28 @@ k=f;return k;case
 13:var
 i=F(z,a[1]);if(i){var
 l=h5(a[4]);if(l){var
-m=pV(c,h(i[1][3],a[2]));return g(m[1],[0,m[2],0])}var
+m=pW(c,h(i[1][3],a[2]));return g(m[1],[0,m[2],0])}var
 n=l}else
 var
 n=i;return n;case
-16:return x(function(a){return pY(o,O,bU,c,a)[1]},z)}var
-e=ky(b,p,z,c,a),q=e?[0,e[1],0]:e;return q},bS,E,ae,$),bR)],aq=g(bK(Y),bW),bX=0,bY=g(R,[0,V,0]),aZ=dB(function(b,a){if(typeof
+16:return x(function(a){return pZ(o,O,bU,c,a)[1]},z)}var
+e=ky(b,p,z,c,a),q=e?[0,e[1],0]:e;return q},bS,E,ae,_),bR)],aq=g(bK(Y),bW),bX=0,bY=g(R,[0,V,0]),aZ=dB(function(b,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
 f=F(z,a[1]);if(f){if(h5(a[4]))return 0;var
-k=[0,pW(I,p,b,a[2],f[1][4]),0]}else
+k=[0,pX(I,p,b,a[2],f[1][4]),0]}else
 var
 k=f;return k;case
 14:var
-i=pX(o,I,p,z,b,a[1],a[2]);if(i){var
+i=pY(o,I,p,z,b,a[1],a[2]);if(i){var
 l=i[1],m=l[2],r=l[1];return x(bT,[0,r[1],[0,r[2],[0,m[1],[0,m[2],0]]]])}return i;case
 15:var
 j=F(z,a[1]);if(j){var
-c=h(j[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,q(xC,b,n(e)),s],u=[0,q(0,b,n(e)),t],v=g(cQ(c[2]),u);return g(c[1],v)}return j;case
+c=h(j[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,q(xD,b,n(e)),s],u=[0,q(0,b,n(e)),t],v=g(cQ(c[2]),u);return g(c[1],v)}return j;case
 16:var
 w=x(function(a){var
 b=d(aE,f2(bY,kz(a)));return[0,kz(a),b]},z);return g(x(function(a){var
-c=ef(b),d=[0,h(a[6],c)[2],0],e=ef(b);return g(h(a[6],e)[1],d)},z),w)}return 0},bX,E,ae,$),a0=dm(d(function(a){return bN(l,a)},aq)),a1=dm(aZ),aa=dl(a0),a2=dl(a1),b0=cT(aa);function
+c=ef(b),d=[0,h(a[6],c)[2],0],e=ef(b);return g(h(a[6],e)[1],d)},z),w)}return 0},bX,E,ae,_),a0=dm(d(function(a){return bN(l,a)},aq)),a1=dm(aZ),aa=dl(a0),a2=dl(a1),b0=cT(aa);function
 v(a){return h(b0,bN(l,a))}var
 L=cT(a2);function
 a4(i){if(0===B[4][0]){var
@@ -5595,8 +5600,8 @@ b=g;var
 r=b?d:b;return r}return 0}var
 Z=a4(h(aC(v),Y)),a5=k(function(a){var
 b=bN(l,a),c=n(e);return a3(q(v(a),aa,c),b)},aq),a6=a5?k(function(a){return hV(l,a)},aq):a5,a7=a6?k(function(a){var
-b=n(e);return a3(q(h(L,a),a2,b),a)},aZ):a6,a8=a7?ag(xK,$):a7;if(a8)var
-b1=J(B[7]),ar=b1||pE(b,[0,o],[0,B[5]]);else
+b=n(e);return a3(q(h(L,a),a2,b),a)},aZ):a6,a8=a7?ag(xL,_):a7;if(a8)var
+b1=J(B[7]),ar=b1||pF(b,[0,o],[0,B[5]]);else
 var
 ar=a8;var
 a9=ar?kA(o,e2(B[4])):ar,a_=a9?i(b,1,B[3]):a9;if(a_)var
@@ -5606,28 +5611,28 @@ var
 as=a_;if(as){var
 b3=g(R,[0,V,0]),at=ad(d(function(a){return av(b,a)},b3));if(at){var
 au=ad(d(function(a){return hT(b,a)},aW));if(au){var
-b4=p0(o,e2(B[4])),aw=ad(d(function(a){return av(b,[0,a,E])},b4));if(aw){var
-ba=aw[1],b5=pq(B[5]),ay=ad(d(function(a){return ps(b,a)},b5));if(ay){var
-bb=ay[1],b6=pp(B[5]),az=ad(d(cB(b),b6));if(az){var
+b4=p1(o,e2(B[4])),aw=ad(d(function(a){return av(b,[0,a,E])},b4));if(aw){var
+ba=aw[1],b5=pr(B[5]),ay=ad(d(function(a){return pt(b,a)},b5));if(ay){var
+bb=ay[1],b6=pq(B[5]),az=ad(d(cB(b),b6));if(az){var
 aA=g(R,[0,V,0]),b7=0,aD=ad(dB(function(l,g){if(typeof
 g!=="number")switch(g[0]){case
 13:var
-C=g[4],aM=F(z,g[1]);if(aM){if(pZ(g[3])&&i(b,0,C)&&i(b,0,[3,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a],C])){var
+C=g[4],aM=F(z,g[1]);if(aM){if(p0(g[3])&&i(b,0,C)&&i(b,0,[3,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a],C])){var
 aN=g[2],aO=aM[1];if(h5(C)){var
-aG=pV(l,h(aO[3],aN)),V=aG[2];if(i(j,0,[3,C,[0,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a))))))))),a]]))var
+aG=pW(l,h(aO[3],aN)),V=aG[2];if(i(j,0,[3,C,[0,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a))))))))),a]]))var
 aH=0;else
 var
 bf=v(V),bg=v(V),aH=[0,[6,[0,[0,d(v,aG[1]),bg],0],bf],0];var
 aP=[0,[4,v(V)],aH]}else
 var
-aP=[0,[9,[3,h(L,pW(I,p,l,aN,aO[4]))]],0];return d(function(a){return[0,a]},aP)}return xI}return xJ;case
+aP=[0,[9,[3,h(L,pX(I,p,l,aN,aO[4]))]],0];return d(function(a){return[0,a]},aP)}return xJ}return xK;case
 16:var
 X=g[3],u=g[2],aQ=g[1],bh=bM(o);if(m(f(z),bh)&&i(b,0,aQ)&&i(b,1,u)&&i(b,1,X)&&cC(b,X)){var
 aI=av(b,[0,[0,u,u],E]);if(aI){var
 bi=aI[1],aJ=h(cB(b),X);if(aJ){var
 bj=aJ[1],aK=ad(d(function(f){var
 a=j3(b,L,aA,E,aQ,u,kz(f));if(a){var
-c=oI(b,v,aA,E,u,f[1][2]);if(c){var
+c=oJ(b,v,aA,E,u,f[1][2]);if(c){var
 g=h3(0,0,f[1][2]);if(g)var
 i=d(ap,c[1]),e=[0,[0,a[1],i]];else
 var
@@ -5637,11 +5642,11 @@ e=c;var
 h=e}else
 var
 h=a;return h},z));if(aK){var
-bk=aK[1],bl=d(function(a){return pY(o,O,aA,l,a)},z),aL=h(aC(v),bl),W=function(a){var
+bk=aK[1],bl=d(function(a){return pZ(o,O,aA,l,a)},z),aL=h(aC(v),bl),W=function(a){var
 b=bZ(o),c=d(function(a){var
 b=ef(l);return h(L,h(a[6],b)[2])},z),e=d(function(a){var
 b=ef(l);return d(L,h(a[6],b)[1])},z),f=a4(aL);return[0,[8,[0,aL,v(p),f,e,c,bk,bi,bj,b,a]]]};if(2<=o)return[0,W(1),0];var
-bm=[0,W(1),0];return[0,W(0),bm]}return xE}return xF}return xG}return xH}var
+bm=[0,W(1),0];return[0,W(0),bm]}return xF}return xG}return xH}return xI}var
 bn=0,w=d(function(a){return a[1]},z);function
 Y(c,b,a){return[0,c,b,a,Z]}var
 G=0;if(typeof
@@ -5661,7 +5666,7 @@ _=g[1],aX=av(b,[0,[0,_,_],e]),r=y(function(a){var
 c=Q(b,a),d=v(p);return[2,h(aC(v),w),d,c]},aX);break;case
 6:var
 J=F(z,g[1]);if(J){var
-M=pT(z,l,g);if(M){var
+M=pU(z,l,g);if(M){var
 $=M[1],aa=i(b,1,g[2]),ab=aa?i(b,1,g[3]):aa;if(ab)var
 aY=v($[2]),aZ=v(J[1][1][2]),ac=[0,[5,[0,[0,[0,v($[1]),0],aZ],0],aY]];else
 var
@@ -5692,10 +5697,10 @@ var
 ao=N;var
 r=ao;break;case
 14:var
-aq=g[2],ar=g[1],P=pX(o,I,p,z,l,ar,aq);if(P){var
-as=P[1],at=as[2],au=as[1],aw=pf(ar,aq,g[3]),R=av(b,[0,[0,aw,aw],E]);if(R){var
+aq=g[2],ar=g[1],P=pY(o,I,p,z,l,ar,aq);if(P){var
+as=P[1],at=as[2],au=as[1],aw=pg(ar,aq,g[3]),R=av(b,[0,[0,aw,aw],E]);if(R){var
 ax=R[1],ay=D(e,ax[1]);if(ay)var
-A=function(a){return oG(L,a)},a7=A(at[2]),a8=A(at[1]),a9=A(au[2]),az=[0,[9,[6,A(au[1]),a9,a8,a7,ax]]];else
+A=function(a){return oH(L,a)},a7=A(at[2]),a8=A(at[1]),a9=A(au[2]),az=[0,[9,[6,A(au[1]),a9,a8,a7,ax]]];else
 var
 az=ay;var
 aB=az}else
@@ -5711,7 +5716,7 @@ aE=i(b,1,g[4]);if(aE)var
 aF=i(b,0,g[2]),T=aF?i(b,0,g[3]):aF;else
 var
 T=aE;if(T)var
-B=h(S[1][5],0),a$=h(L,B[4]),ba=[0,[0,h(L,B[3]),a$]],bb=h(L,q(xD,l,n(e))),bc=h(L,q(0,l,n(e))),a_=0,bd=B[2],be=d(function(a){return d(L,a)},bd),U=[0,[9,[11,d(L,B[1]),be,bc,bb,ba,a_]]];else
+B=h(S[1][5],0),a$=h(L,B[4]),ba=[0,[0,h(L,B[3]),a$]],bb=h(L,q(xE,l,n(e))),bc=h(L,q(0,l,n(e))),a_=0,bd=B[2],be=d(function(a){return d(L,a)},bd),U=[0,[9,[11,d(L,B[1]),be,bc,bb,ba,a_]]];else
 var
 U=T}else
 var
@@ -5719,15 +5724,15 @@ U=S;var
 r=U;break;default:var
 r=0}if(G)var
 aT=av(b,[0,[0,x,x],e]),r=y(function(a){var
-c=Q(b,a),d=v(p);return H(h(aC(v),w),d,c)},aT);return[0,r,bn]},b7,E,ae,$));if(aD){var
+c=Q(b,a),d=v(p);return H(h(aC(v),w),d,c)},aT);return[0,r,bn]},b7,E,ae,_));if(aD){var
 bc=aD[1];if(B[7])var
 b8=aT[2],b9=aT[1],b_=v(p),af=j7(bB,bc,[7,h(aC(v),ao),b_,b9,b8]);else
 var
 af=bc;var
 bd=m(f(g(ba,bb)),l),be=bd?k(function(a){var
-b=pL(a);return k(function(a){return pm(l,aa,a)},b)},af):bd,bf=be?G?pm(l,aa,v(G[1])):1:be;if(bf){var
-b$=g(au[1],az[1]),aG=g(at[1],b$),S=p2(aS),T=kB(E,B[2]),ab=S?d(function(a){var
-b=pJ(l,T,a[2]),c=a[1];return[0,d(function(a){return pJ(l,T,a)},c),b]},Y):S,aH=S?dm(ku(l,p,G,ab)):S,aI=dl(aH),ai=cT(aI),ca=ks(ai,ai,ab),cb=h(ai,bN(l,p)),aJ=y(function(a){return h(ai,bN(l,a))},G),bg=J(S);if(bg)var
+b=pM(a);return k(function(a){return pn(l,aa,a)},b)},af):bd,bf=be?G?pn(l,aa,v(G[1])):1:be;if(bf){var
+b$=g(au[1],az[1]),aG=g(at[1],b$),S=p3(aS),T=kB(E,B[2]),ab=S?d(function(a){var
+b=pK(l,T,a[2]),c=a[1];return[0,d(function(a){return pK(l,T,a)},c),b]},Y):S,aH=S?dm(ku(l,p,G,ab)):S,aI=dl(aH),ai=cT(aI),ca=ks(ai,ai,ab),cb=h(ai,bN(l,p)),aJ=y(function(a){return h(ai,bN(l,a))},G),bg=J(S);if(bg)var
 ak=bg;else{var
 bp=m(f(Y),l);if(bp){var
 by=ku(l,p,G,ab),aO=k(function(a){var
@@ -5736,7 +5741,7 @@ bz=ku(l,p,G,ab),al=k(function(a){var
 b=ax(0,l);return k(function(b){return e6(l,b,a)},b)},bz);else
 var
 al=aO;if(al){var
-aP=y(function(a){return bN(l,a)},G),am=bN(l,p),aM=pF(am);if(aM)var
+aP=y(function(a){return bN(l,a)},G),am=bN(l,p),aM=pG(am);if(aM)var
 bx=ax(0,Z),aQ=k(function(a){var
 b=ea(l,a,am),c=b?k(function(b){var
 d=b[2][2],e=g(x(kt,b[1]),d),f=P(l,a),c=k(function(a){return c4(f,a)},e);if(c){var
@@ -5751,7 +5756,7 @@ an=aQ}else
 var
 an=al;var
 ch=an?k(function(a){var
-c=a[1],b=k(function(a){return pK(l,aG,T,a)},c);return b?pK(l,aG,T,a[2]):b},Y):an,ak=ch}else
+c=a[1],b=k(function(a){return pL(l,aG,T,a)},c);return b?pL(l,aG,T,a[2]):b},Y):an,ak=ch}else
 var
 ak=bp}if(ak){var
 cc=d(function(a){return 1},af),cd=g(ba,bb),ce=function(p,Q,ae,u,g){if(S){var
@@ -5774,12 +5779,12 @@ var
 P=O}else
 var
 P=aJ;if(!S)return P}if(!R)return 0;break}if(z){var
-U=kh(b,fS(t,0,p),aH,Q),s=kh(b,p,aH,Q),j=function(b,a){return q(a,b,xn)},V=pH(function(a){return j(s,a)},L),Y=j(s,cb),_=function(a){return j(s,a)},$=[0,ks(function(a){return j(U,a)},_,ca),Y,V],ac=nR(t,p),aa=function(s){var
-n=ad(d(xl,s[1]));if(n){var
+U=kh(b,fS(t,0,p),aH,Q),s=kh(b,p,aH,Q),j=function(b,a){return q(a,b,xo)},V=pI(function(a){return j(s,a)},L),Y=j(s,cb),_=function(a){return j(s,a)},$=[0,ks(function(a){return j(U,a)},_,ca),Y,V],ac=nS(t,p),aa=function(s){var
+n=ad(d(xm,s[1]));if(n){var
 o=s[2];if(o){var
 p=dE(s[3]);if(p){var
 aa=p[1],S=w(r(b,ae,o[1]),aa),ab=n[1],T=d(function(d){var
-a=hs(b,0,ac,d),c=aN(xm,a[2]);return[0,a[1],c]},ab);if(W){var
+a=hs(b,0,ac,d),c=aN(xn,a[2]);return[0,a[1],c]},ab);if(W){var
 t=W[1],u=t[1],z=u[1],A=z[1],B=u[2],C=t[2],E=jU(b,v),F=E[1],G=F[1],h=G[2],g=G[1],Y=F[2],i=d(function(c){return aB(c,Y,K(b,a))},h),I=m(f(h),l),L=I?m(f(A),l):I,M=L?D(e,B):L,O=M?fG(C,c(2,c(2,c(2,c(2,c(2,c(2,a))))))):M,P=O?aF(g,l):O,Q=P?J(H(q(g,h,e),e)):P;if(Q){var
 Z=jH(b,g,i,l,N(S),0),_=jI(b,g,i,A,z[2],B,C,Z),j=jJ(b,g,i,E[2],x,y,T,_);if(j)return aV(b,l,j[1]);var
 R=j}else
@@ -5791,7 +5796,7 @@ var
 U=o;var
 V=U}else
 var
-V=n;return V};return h(kj(function(b,a){return xk},Z,l,aa),$)}var
+V=n;return V};return h(kj(function(b,a){return xl},Z,l,aa),$)}var
 G=0}else
 var
 G=F;var
@@ -5827,9 +5832,9 @@ bo=bn}else
 var
 bo=as;return bo}function
 gh(b,a){return bI(b,a[1],a[2])}function
-p3(b,a){var
+p4(b,a){var
 c=gh(b,a[1]),d=c?gh(b,a[2]):c;return d?gh(b,a[3]):d}function
-p4(a){return typeof
+p5(a){return typeof
 a==="number"?0:0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
 h7(a){return typeof
 a==="number"?a?ec(0):dZ:ec(a[1])}function
@@ -5843,47 +5848,47 @@ kD(P,o,b){function
 p(a){return ah(A,P,ar(b,a))}if(0===o[0]){var
 r=o[1];switch(r[0]){case
 0:var
-am=r[1][5],s=q(xM,b,n(e)),t=ar(b,0),Q=p(xN),f=nu(Q,dY(t),Q,s,am),U=[0,aR(s),0],V=[0,aR(ac(t,t)),U];return[0,f[1],f[2],f[3],[0,f[4]],[0,[0,f[2],s]],V];case
+am=r[1][5],s=q(xN,b,n(e)),t=ar(b,0),Q=p(xO),f=nv(Q,dY(t),Q,s,am),U=[0,aR(s),0],V=[0,aR(ac(t,t)),U];return[0,f[1],f[2],f[3],[0,f[4]],[0,[0,f[2],s]],V];case
 1:var
-R=r[3],v=R?[0,ar(b,xO)]:R,S=p(0),g=nv(S,S,0);if(v)var
+R=r[3],v=R?[0,ar(b,xP)]:R,S=p(0),g=nw(S,S,0);if(v)var
 B=v[1],D=[0,aR(ac(B,B)),0];else
 var
 D=v;var
 W=g[4],X=[0,[0,n(e),W]];return[0,g[1],g[2],g[3],[0,g[4]],X,D];default:var
-w=ar(b,0),h=nw(P,dY(w)),Y=[0,aR(ac(w,w)),0];return[0,h[1],h[2],h[3],[0,h[4]],0,Y]}}var
-x=o[1][7],y=q(xP,b,n(e)),d=q(xQ,b,n(e)),T=ar(b,xR),z=ar(b,0),j=p(xS),i=dY(z),k=ah(A,T,a$(ac(i,T),i)),l=dY(k),E=bu(i,l),F=ac(j,l),G=ac(j,E),Z=ac(i,j),$=_(G),H=C(_(F),$),aa=_(Z),I=A(_(y),aa),ab=u(n(c(2,a)),d),m=A(H,_(aj(C(H,A(_(d),I)),ab))),ad=ho(x,u(d,aR(m))),J=aj(F,d),K=ho(x,aj(G,d)),L=aj(I,_(d)),M=mX(0,J,K,L),N=ho(x,mX(1,J,K,L)),ae=a$(N,E),O=ah(A,j,a$(d,ah(C,a$(M,l),ae))),af=[0,aR(y),0],ag=[0,aR(d),af],ai=[0,aR(ac(k,k)),ag],ak=[0,aR(ac(z,z)),ai],al=br(O,ad);return[0,O,u(_(d),m),al,[1,M,N],[0,[0,m,y]],ak]}function
+w=ar(b,0),h=nx(P,dY(w)),Y=[0,aR(ac(w,w)),0];return[0,h[1],h[2],h[3],[0,h[4]],0,Y]}}var
+x=o[1][7],y=q(xQ,b,n(e)),d=q(xR,b,n(e)),T=ar(b,xS),z=ar(b,0),j=p(xT),i=dY(z),k=ah(A,T,a$(ac(i,T),i)),l=dY(k),E=bu(i,l),F=ac(j,l),G=ac(j,E),Z=ac(i,j),_=$(G),H=C($(F),_),aa=$(Z),I=A($(y),aa),ab=u(n(c(2,a)),d),m=A(H,$(aj(C(H,A($(d),I)),ab))),ad=ho(x,u(d,aR(m))),J=aj(F,d),K=ho(x,aj(G,d)),L=aj(I,$(d)),M=mY(0,J,K,L),N=ho(x,mY(1,J,K,L)),ae=a$(N,E),O=ah(A,j,a$(d,ah(C,a$(M,l),ae))),af=[0,aR(y),0],ag=[0,aR(d),af],ai=[0,aR(ac(k,k)),ag],ak=[0,aR(ac(z,z)),ai],al=br(O,ad);return[0,O,u($(d),m),al,[1,M,N],[0,[0,m,y]],ak]}function
 kE(b,c,a){if(0===c[0])switch(c[1][0]){case
-0:return h(b,ar(a,xT));case
-1:return h(b,ar(a,xU));default:var
-d=n(e),f=n(e);return[0,n(e),f,d]}return h(b,ar(a,xV))}function
-p5(a,c,b){return 0===c[0]?2===c[1][0]?h7(a):ah(C,h7(a),b):ah(C,h7(a),b)}function
+0:return h(b,ar(a,xU));case
+1:return h(b,ar(a,xV));default:var
+d=n(e),f=n(e);return[0,n(e),f,d]}return h(b,ar(a,xW))}function
+p6(a,c,b){return 0===c[0]?2===c[1][0]?h7(a):ah(C,h7(a),b):ah(C,h7(a),b)}function
 kF(j,c,i,h,b,g){if(b)var
-a=b[1],k=bH([0,e,e],h),n=P(g,f(h8(c,k,a))),o=b[2],p=kF(j,c,i,by(h),o,n),l=cy(g,h8(c,k,a)),d=kE(i,a,l),m=[0,[0,kD(p5(j,a,d),a,l),d],p];else
+a=b[1],k=bH([0,e,e],h),n=P(g,f(h8(c,k,a))),o=b[2],p=kF(j,c,i,by(h),o,n),l=cy(g,h8(c,k,a)),d=kE(i,a,l),m=[0,[0,kD(p6(j,a,d),a,l),d],p];else
 var
 m=b;return m}function
 kG(c,b,a){if(a){var
 d=a[2],f=kG(c,by(b),d),h=a[1];return g(h8(c,bH([0,e,e],b),h),f)}return a}function
-p6(d,c,a,b){if(a)var
-g=a[1],h=h8(d,bH([0,e,e],c),g),j=P(b,f(h)),k=a[2],l=p6(d,by(c),k,j),i=[0,[0,g,cy(b,h)],l];else
+p7(d,c,a,b){if(a)var
+g=a[1],h=h8(d,bH([0,e,e],c),g),j=P(b,f(h)),k=a[2],l=p7(d,by(c),k,j),i=[0,[0,g,cy(b,h)],l];else
 var
 i=a;return i}function
 kH(a){if(typeof
 a==="number"){var
 c=n(e),d=n(e);return[0,n(e),d,c]}var
-b=a[1];return pz(b,bM(b))}function
-p7(c,b,a){var
+b=a[1];return pA(b,bM(b))}function
+p8(c,b,a){var
 e=hG(hK(c),a),f=M(hG(hK(c),b),e);return d(function(c){var
 d=u(a,c[1]);return A(u(b,c[2]),d)},f)}function
-p8(b,e,c,a){var
+p9(b,e,c,a){var
 f=x(function(a){var
 c=typeof
-a==="number"?0:0===a[0]?f2(b,a[1]):j2(b,p7(b,a[1],a[2])),e=d(aE,c);return g(p4(a),e)},a),h=g(bK(c),f);return g(cQ(e),h)}function
-p9(c,b,u,t,s,r,g,e,q,p,k,l,j,a){var
+a==="number"?0:0===a[0]?f2(b,a[1]):j2(b,p8(b,a[1],a[2])),e=d(aE,c);return g(p5(a),e)},a),h=g(bK(c),f);return g(cQ(e),h)}function
+p_(c,b,u,t,s,r,g,e,q,p,k,l,j,a){var
 n=av(c,[0,[0,a,a],e]);if(n){if(l){var
 v=l[1],w=n[1],o=ad(d(function(d){if(typeof
 d==="number")return 0;else{if(0===d[0])return j3(c,b,g,e,j,a,d[1]);var
 k=d[1],f=hT(c,[1,[5,j,a],W(e)]);if(f){var
-i=oH(c,b,g,e,a,j2(g,p7(g,k,d[2])));if(i)var
+i=oI(c,b,g,e,a,j2(g,p8(g,k,d[2])));if(i)var
 n=[0,f[1],i[1]],l=[0,[0,h(b,k),n]];else
 var
 l=i;var
@@ -5891,15 +5896,15 @@ m=l}else
 var
 m=f;return m}},k));if(o){var
 y=o[1];if(m(f(k),u)&&i(c,0,j)&&i(c,1,a))return d(function(a){var
-c=d(b,x(p4,k)),e=h(aC(b),p);return[0,[10,[0,d(function(a){return d(b,a)},q),e,c,y,r,w,v,t,a]]]},s);return xW}return xX}return xY}return xZ}function
-p_(a){return typeof
+c=d(b,x(p5,k)),e=h(aC(b),p);return[0,[10,[0,d(function(a){return d(b,a)},q),e,c,y,r,w,v,t,a]]]},s);return xX}return xY}return xZ}return x0}function
+p$(a){return typeof
 a==="number"?a?0:1:a[1]}function
-p$(a){return[0,[0,[1,a]],[0,[1,[0,a]]],[0,[1,[0,[0,a]]]]]}function
-kI(d,c,a,b){return h0(p_(d),c,a,a,b)}function
-qa(g,f,e,d){if(0===f[0])switch(f[1][0]){case
+qa(a){return[0,[0,[1,a]],[0,[1,[0,a]]],[0,[1,[0,[0,a]]]]]}function
+kI(d,c,a,b){return h0(p$(d),c,a,a,b)}function
+qb(g,f,e,d){if(0===f[0])switch(f[1][0]){case
 0:var
 b=g[6];if(b)var
-h=b[1],i=h[2],j=aj(i,aR(h[1])),m=_(j),o=u(j,C(e,u(aj(d,i),m))),k=[0,A(n(a),o)];else
+h=b[1],i=h[2],j=aj(i,aR(h[1])),m=$(j),o=u(j,C(e,u(aj(d,i),m))),k=[0,A(n(a),o)];else
 var
 k=b;return k;case
 1:var
@@ -5907,44 +5912,44 @@ c=g[6];if(c)var
 p=aj(d,c[1][2]),l=[0,A(A(n(a),e),p)];else
 var
 l=c;return l;default:return 0}return 0}function
-qb(c,b){var
+qc(c,b){var
 d=typeof
 c==="number"?0:1,a=J(d);return a?0===b[0]?1:0:a}function
-qc(a){return 0===a[0]?2===a[1][0]?1:0:0}function
-qd(c,b){function
+qd(a){return 0===a[0]?2===a[1][0]?1:0:0}function
+qe(c,b){function
 a(a){return q(a,b,n(e))}if(0===c[1][0]){var
-d=a(x5);return[0,a(0),d]}var
-f=a(x6),g=aj(a(x7),f),h=a(x8);return[0,aj(a(0),h),g]}function
-qe(d,c,a){var
-b=a[1];return p5(d,b,kE(c,b,a[2]))}function
-qf(a,k,j,d,c){var
-l=c[1],f=qe(a,k,c),m=kE(k,l,c[2]);function
+d=a(x6);return[0,a(0),d]}var
+f=a(x7),g=aj(a(x8),f),h=a(x9);return[0,aj(a(0),h),g]}function
+qf(d,c,a){var
+b=a[1];return p6(d,b,kE(c,b,a[2]))}function
+qg(a,k,j,d,c){var
+l=c[1],f=qf(a,k,c),m=kE(k,l,c[2]);function
 o(a){return kD(a,l,c[2])}function
 b(a){return[0,km(a),0]}if(typeof
 a==="number")if(a)var
-t=[0,b(x2),0],g=[0,b(0),t];else
+t=[0,b(x3),0],g=[0,b(0),t];else
 var
-u=[0,b(x3),0],v=[0,b(x4),u],g=[0,b(0),v];else
+u=[0,b(x4),0],v=[0,b(x5),u],g=[0,b(0),v];else
 var
-g=pt(a[1],m,j);var
-w=o(f)[3],h=o(p$(d))[3];if(p_(a))var
+g=pu(a[1],m,j);var
+w=o(f)[3],h=o(qa(d))[3];if(p$(a))var
 i=kI(a,d,f,h[3]);else
 var
 r=n(e),s=n(e),i=[0,n(e),s,r];var
-p=kI(a,d,f,h[2]),q=[0,kI(a,d,f,h[1]),p,i];return kn(function(a,b){return pu(q,w,m,j,a,b)},g)}function
-qg(i,h,c,b){var
-j=b[1],k=qe(i,h,b),e=p$(c),a=kD(e,j,b[2]),f=[0,a[3][1],[0,a[3][2],[0,a[3][3],[0,a[2],0]]]],g=bT(k);return d(function(a){return kl(c,g,a)},f)}function
-qh(b,i,f,e,c,a){if(a){var
-j=a[2],k=a[1],l=qh(b,i,f,e,g(c,[0,k,0]),j),m=h(e,d(by,g(c,j)));return au(i,au(f,bH(b,k),m),l)}return b}function
-qi(a,f,e,d,c,b){if(c){var
-g=0,h=c[1];return qh(a,e,d,function(b){return qi(a,f,e,d,h,b)},g,b)}return b?a:f}function
-qj(b,d,c){var
+p=kI(a,d,f,h[2]),q=[0,kI(a,d,f,h[1]),p,i];return kn(function(a,b){return pv(q,w,m,j,a,b)},g)}function
+qh(i,h,c,b){var
+j=b[1],k=qf(i,h,b),e=qa(c),a=kD(e,j,b[2]),f=[0,a[3][1],[0,a[3][2],[0,a[3][3],[0,a[2],0]]]],g=bT(k);return d(function(a){return kl(c,g,a)},f)}function
+qi(b,i,f,e,c,a){if(a){var
+j=a[2],k=a[1],l=qi(b,i,f,e,g(c,[0,k,0]),j),m=h(e,d(by,g(c,j)));return au(i,au(f,bH(b,k),m),l)}return b}function
+qj(a,f,e,d,c,b){if(c){var
+g=0,h=c[1];return qi(a,e,d,function(b){return qj(a,f,e,d,h,b)},g,b)}return b?a:f}function
+qk(b,d,c){var
 e=hN(b,c);function
 f(a,c){return r(b,a,c)}var
-g=K(b,a);return y(function(a){return qi(t,g,B,f,d,a)},e)}function
+g=K(b,a);return y(function(a){return qj(t,g,B,f,d,a)},e)}function
 kJ(d,c,o,n){var
-a=qj(d,c,o);if(a){var
-f=a[1],b=qj(d,c,n);if(b){var
+a=qk(d,c,o);if(a){var
+f=a[1],b=qk(d,c,n);if(b){var
 g=b[1],h=I(e,f[1]),i=h?I(g[2],e):h;if(i)var
 j=i;else{var
 m=I(f[2],e);if(m)return I(e,g[1]);var
@@ -5970,18 +5975,18 @@ y=m[1];if(m[2])return n(e);if(g[2])return n(e);var
 z=d5(s,t,w,x),B=u(f[1],z),D=u(r,d5(s,v,w,y));return C(A(u(q,d5(t,v,x,y)),D),B)}return n(e)}return n(e)}return n(e)}return n(e)}return n(e)}return n(e)}return n(e)}return n(e)}if(a){var
 o=a[1];if(o){var
 p=o[2];return p?p[2]?n(e):a[2]?n(e):d5(q,r,o[1],p[1]):n(e)}return n(e)}return n(e)}return n(e)}return n(e)}return n(e)}function
-qk(a){if(a){var
+ql(a){if(a){var
 b=a[1][6];if(b)var
-c=qk(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=ql(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return x9}function
-ql(g,k,a){function
+d=b;return d}return x_}function
+qm(g,k,a){function
 b(a){return q(a,k,n(e))}function
 l(a){var
-e=a[2],f=u(_(b(0)),e),c=0,d=0,g=a[1];return[0,[0,bz(function(b,a){return A(b,_(a))},g,f),d],c]}function
+e=a[2],f=u($(b(0)),e),c=0,d=0,g=a[1];return[0,[0,bz(function(b,a){return A(b,$(a))},g,f),d],c]}function
 m(e){var
 a=e[6];if(a)var
-c=a[1],f=_(c[2]),g=u(_(b(0)),f),d=[0,[0,A(c[1],g),0],0];else
+c=a[1],f=$(c[2]),g=u($(b(0)),f),d=[0,[0,A(c[1],g),0],0];else
 var
 d=a;return d}var
 j=0;if(typeof
@@ -6001,7 +6006,7 @@ d=a[1];return[0,[0,A(b(0),d),0],0]}return 0},f=v,c=a[1];break;case
 w=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-c=a[2],d=a[1],f=u(b(x_),c),g=[0,[0,A(u(b(x$),d),f),0],0],h=u(d,b(ya));return[0,[0,A(u(c,b(0)),h),0],g]}return 0},f=w,c=a[1];break;case
+c=a[2],d=a[1],f=u(b(x$),c),g=[0,[0,A(u(b(ya),d),f),0],0],h=u(d,b(yb));return[0,[0,A(u(c,b(0)),h),0],g]}return 0},f=w,c=a[1];break;case
 6:var
 x=function(a){var
 b=a[4];if(typeof
@@ -6017,7 +6022,7 @@ z=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return m(a);return 0},f=z,c=a[1];break;case
 12:var
-i=qk(g);if(i)var
+i=ql(g);if(i)var
 B=b(0),o=bz(u,i[1],B),p=kK(d(function(a){return a[5]},g)),D=[0,bB(C(p,o)),0],r=[0,[0,A(p,o),D],0];else
 var
 r=i;return r;case
@@ -6026,14 +6031,14 @@ s=a[1],f=function(e){var
 a=kK(d(function(a){return a[1]},g));function
 b(b){var
 c=[0,bB(C(a,b)),0];return[0,A(a,b),c]}var
-f=kK(oZ(s,k,d(function(a){return a[1]},g))),c=u(aR(e[2]),f),h=[0,b(bB(c)),0];return[0,b(c),h]},c=s;break;default:j=1}if(j)return 0;var
+f=kK(o0(s,k,d(function(a){return a[1]},g))),c=u(aR(e[2]),f),h=[0,b(bB(c)),0];return[0,b(c),h]},c=s;break;default:j=1}if(j)return 0;var
 h=F(g,c);return h?f(h[1]):h}function
 fa(a){return d(function(a){return[0,a[1],a[2]]},a)}function
 eg(b){return d(function(b){var
 c=n(a);return[0,b[3],c]},b)}function
-qm(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bK(hS(fa(c),b));return cQ(ql(c,b,a))}function
-qn(g,m,l,L,J,u,b){if(typeof
+qn(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bK(hS(fa(c),b));return cQ(qm(c,b,a))}function
+qo(g,m,l,L,J,u,b){if(typeof
 b==="number")return[0,[0,[0,t]],0];else
 switch(b[0]){case
 0:var
@@ -6043,10 +6048,10 @@ P=[5,[0,a,a],b[1]],n=P,o=function(a){return[1,a]};break;case
 5:var
 B=b[1],U=0,V=av(g,[0,[0,B,B],e]);return[0,y(function(a){return[2,Q(g,a)]},V),U];case
 7:var
-C=b[3],D=b[2],E=b[1];if(!F(l,E))return yd;var
+C=b[3],D=b[2],E=b[1];if(!F(l,E))return ye;var
 I=0;if(i(g,1,D)&&i(g,1,C))var
 W=[5,D,C],n=W,o=function(a){return[7,E,a]};else
-I=1;if(I)return yc;break;case
+I=1;if(I)return yd;break;case
 8:var
 G=i(g,1,b[2]),X=0;if(G)var
 Y=b[1],Z=1,q=k(function(a){return i(g,Z,a)},Y);else
@@ -6062,28 +6067,28 @@ switch(b[0]){case
 v=b[3],w=b[2],x=i(g,1,[3,v,w]),S=x?i(g,1,[3,[2,w,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a]],v]):x,j=S;break;case
 17:var
 A=i(g,1,b[3]);if(A)var
-T=d(function(a){return a[1]},l),j=o0(f(b[2]),T);else
+T=d(function(a){return a[1]},l),j=o1(f(b[2]),T);else
 var
 j=A;break;case
 6:case
 9:var
 z=i(g,1,b[2]),j=z?i(g,0,b[3]):z;break;default:r=1}if(r)var
 j=1;var
-p=j?ql(l,u,b):j;if(p){var
+p=j?qm(l,u,b):j;if(p){var
 R=[0,p[1],p[2]];return d(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
 e=h(m,b[1]);return[0,[5,h(m,c),e]]}var
 d=[0,[3,h(m,c)]]}else
 var
-d=a;return d},R)}return yb}var
+d=a;return d},R)}return yc}var
 N=0,O=av(g,[0,[0,n,n],hR(L,J)]);return[0,y(function(a){return o(Q(g,a))},O),N]}function
-qo(a){if(typeof
+qp(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-qp(a){return 0===a[0]?2===a[1][0]?0:1:1}function
-ye(l,Z,aR,j,r,A,aQ){var
+qq(a){return 0===a[0]?2===a[1][0]?0:1:1}function
+yf(l,Z,aR,j,r,A,aQ){var
 b=j[1],_=as(b),B=j[6],s=kG(r,A,j[2]),$=j[3],v=[0,[0,$,$],r],aa=[0,f(s)],L=j[2],w=L?0===L[1][0]?0:1:L,aS=j[5],z=y(function(a){var
 c=typeof
-b==="number"?0:bZ(b[1]);return po(a,c)},aS),aU=j[2],aT=0,aV=bV(v,f(s)),aN=kF(b,r,function(a){return gi(z,a)},A,aU,aT),p=d(function(f){var
+b==="number"?0:bZ(b[1]);return pp(a,c)},aS),aU=j[2],aT=0,aV=bV(v,f(s)),aN=kF(b,r,function(a){return gi(z,a)},A,aU,aT),p=d(function(f){var
 g=f[2],a=f[1];function
 e(a){return kC(b,a,br(bu(g,a),aV))}var
 h=a[1],i=bu(ah(C,h7(b),g),h),j=kC(b,a[1],i),c=a[1],d=typeof
@@ -6091,7 +6096,7 @@ b==="number"?1:0,k=a[6],l=a[5],m=d?b?[0,c[1],[0,c[2],0]]:bT(c):d,n=a[4],o=e(a[3]
 ab(a){var
 c=0,g=j[2],h=kF(b,r,function(a){if(typeof
 b==="number")return gi(z,a);var
-c=gi(z,a);return pA(kH(b),c)},A,g,c),e=ef(a),k=bV(v,f(s));return d(function(d){var
+c=gi(z,a);return pB(kH(b),c)},A,g,c),e=ef(a),k=bV(v,f(s));return d(function(d){var
 a=d[1][3];if(typeof
 b==="number")return kC(b,a,br(bu(d[2],a),k));var
 f=bu(d[2],a),g=ah(C,f,bu(f,kH(b))),c=a$(ko(kH(b)),g),h=u(c[3],e),i=u(c[2],e),j=[0,u(c[1],e),i,h];return ge(b[1],a,j)},h)}function
@@ -6101,20 +6106,20 @@ b==="number")var
 i=e;else
 var
 h=b[1],j=aw(bZ(h),e),k=d(function(b){return u(b,u(u(n(c(2,a)),q),p))},j),i=g(ao(bZ(h),e),k);return[0,i,o]},p)}var
-ae=d(function(a){return a[4]},p),af=p6(r,A,j[2],0);function
+ae=d(function(a){return a[4]},p),af=p7(r,A,j[2],0);function
 aW(d,c){if(typeof
 c!=="number")switch(c[0]){case
 15:var
 q=c[1],r=f(s),y=bV(v,f(s)),t=function(a){return gi(z,a)},i=F(p,q);if(i){var
 j=F(af,q);if(j){var
-a=j[1],n=i[1],e=a[1],k=qd(a,d),l=k[2],m=k[1];if(qb(b,e)){var
-h=qa(n,e,m,l),u=h?[0,h[1],0]:h;return u}if(qc(e))return 0;var
-w=g([0,m,[0,l,0]],qg(b,t,r,a)),x=g(cQ(qf(b,t,y,r,a)),w);return g(n[3],x)}var
+a=j[1],n=i[1],e=a[1],k=qe(a,d),l=k[2],m=k[1];if(qc(b,e)){var
+h=qb(n,e,m,l),u=h?[0,h[1],0]:h;return u}if(qd(e))return 0;var
+w=g([0,m,[0,l,0]],qh(b,t,r,a)),x=g(cQ(qg(b,t,y,r,a)),w);return g(n[3],x)}var
 o=j}else
 var
 o=i;return o;case
 16:var
-A=ac(d);return p8(s,ab(d),A,ae)}return qm(p,d,c)}var
+A=ac(d);return p9(s,ab(d),A,ae)}return qn(p,d,c)}var
 ai=x(function(a){return a[7]},p),aj=j[7],ak=aj?d(function(a){return[0,a[8],a[2]]},p):aj,aX=bK(ak),aY=g(ai,g(dB(aW,w,r,aa,B),aX)),aZ=g(bK(eg(p)),aY),al=g(bK(fa(p)),aZ),am=dm(al),an=dl(am),o=cT(an);function
 a0(g,c){if(typeof
 c!=="number")switch(c[0]){case
@@ -6125,12 +6130,12 @@ E=i(l,1,Y);if(E)var
 G=i(l,0,$),t=G?i(l,0,Z):G;else
 var
 t=E;if(t){var
-e=q[1],H=n[1],m=e[1],B=qd(e,g),C=B[2],D=B[1];if(qb(b,m))var
-Q=qa(H,m,D,C),u=y(function(a){return[3,h(o,a)]},Q);else
-if(qc(m))var
+e=q[1],H=n[1],m=e[1],B=qe(e,g),C=B[2],D=B[1];if(qc(b,m))var
+Q=qb(H,m,D,C),u=y(function(a){return[3,h(o,a)]},Q);else
+if(qd(m))var
 u=0;else
 var
-R=d(o,qg(b,O,N,e)),T=h(o,C),U=h(o,D),S=0,V=qf(b,O,aa,N,e),W=d(function(a){return d(o,a)},V),u=[0,[11,d(o,H[3]),W,U,T,S,R]];var
+R=d(o,qh(b,O,N,e)),T=h(o,C),U=h(o,D),S=0,V=qg(b,O,aa,N,e),W=d(function(a){return d(o,a)},V),u=[0,[11,d(o,H[3]),W,U,T,S,R]];var
 x=u}else
 var
 x=t}else
@@ -6144,13 +6149,13 @@ A=c[3],ad=j[2];if(typeof
 b==="number")var
 P=1;else
 var
-J=i(l,1,A),L=J?cC(l,A):J,P=L?k(qp,ad):L;if(P){var
+J=i(l,1,A),L=J?cC(l,A):J,P=L?k(qq,ad):L;if(P){var
 ag=c[2],ah=c[1],ai=typeof
 b==="number"?[0,K(l,a)]:h(cB(l),A),aj=ac(g),ak=ab(g),al=typeof
-b==="number"?x0:x1,am=typeof
-b==="number"?as(b):bZ(b[1]);return p9(l,o,_,am,al,w,s,r,ak,aj,ae,ai,ah,ag)}return yf}return qn(l,o,p,w,r,g,c)}var
+b==="number"?x1:x2,am=typeof
+b==="number"?as(b):bZ(b[1]);return p_(l,o,_,am,al,w,s,r,ak,aj,ae,ai,ah,ag)}return yg}return qo(l,o,p,w,r,g,c)}var
 ap=k(function(a){var
-b=n(e);return a3(q(h(o,a),an,b),a)},al),aq=ap?ag(qo,B):ap;if(aq){var
+b=n(e);return a3(q(h(o,a),an,b),a)},al),aq=ap?ag(qp,B):ap;if(aq){var
 ar=j[4];if(typeof
 b==="number")var
 at=b?kA(0,e2(ar)):1;else
@@ -6181,18 +6186,18 @@ O=N;if(O){var
 au=J(j[7]);if(au)var
 E=au;else
 var
-aL=pE(l,b,j[5]),E=aL?k(qp,j[2]):aL}else
+aL=pF(l,b,j[5]),E=aL?k(qq,j[2]):aL}else
 var
 E=O;if(E){var
 a2=g(s,[0,v,0]),P=ad(d(function(a){return av(l,a)},a2));if(P){var
 a4=x(function(a){return gb(w,r,a)},B),Q=ad(d(function(a){return hT(l,a)},a4));if(Q){var
 t=e2(j[4]),a5=typeof
-b==="number"?b?[0,t[1],[0,t[2],0]]:[0,t[1],[0,t[2],[0,t[3],0]]]:p0(b[1],t),R=ad(d(function(a){return av(l,[0,a,r])},a5));if(R){var
+b==="number"?b?[0,t[1],[0,t[2],0]]:[0,t[1],[0,t[2],[0,t[3],0]]]:p1(b[1],t),R=ad(d(function(a){return av(l,[0,a,r])},a5));if(R){var
 ax=R[1],ay=j[5];if(ay)var
-a6=pq(ay[1]),G=ad(d(function(a){return ps(l,a)},a6));else
+a6=pr(ay[1]),G=ad(d(function(a){return pt(l,a)},a6));else
 var
-G=yg;if(G){var
-az=G[1],I=j[5],a7=I?pp(I[1]):I,S=ad(d(cB(l),a7));if(S){var
+G=yh;if(G){var
+az=G[1],I=j[5],a7=I?pq(I[1]):I,S=ad(d(cB(l),a7));if(S){var
 T=ad(dB(a0,w,r,aa,B));if(T){var
 aA=T[1];if(j[7])var
 a8=Z[2],a9=Z[1],U=j7(aR,aA,[8,h(aC(o),ak),a9,a8]);else
@@ -6201,7 +6206,7 @@ U=aA;var
 aB=m(f(g(ax,az)),_);if(aB){var
 a_=jX(U),ba=g(ax,az),aM=0,bb=j[4];if(typeof
 b==="number"&&!b){var
-aD=function(a){return oK(l,bb,r,a)};aM=1}if(!aM)var
+aD=function(a){return oL(l,bb,r,a)};aM=1}if(!aM)var
 aD=function(a){return 0};var
 bc=g(Q[1],S[1]),bd=g(P[1],bc),be=d(o,ai),bf=eg(p),bg=h(aC(o),bf),bh=fa(p);return fm(jW(l,am,h(aC(o),bh),bg,be,bd,U,aD),ba,a_,aQ)}var
 aE=aB}else
@@ -6225,11 +6230,11 @@ aJ=P;var
 aK=aJ}else
 var
 aK=E;return aK}function
-yh(b){if(0===b[0])return[0,oV(b[1])];var
+yi(b){if(0===b[0])return[0,oW(b[1])];var
 a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bW(a[4]),g=bW(a[3]),h=bW(a[2]);return[1,[0,bW(a[1]),h,g,f,e,d,c]]}function
-qq(e,d,c){var
+qr(e,d,c){var
 a=d;for(;;){if(a){var
-b=a[1];if(uc(b[1],c))return b[2];var
+b=a[1];if(ud(b[1],c))return b[2];var
 a=a[2];continue}return e}}function
 kL(a,c,b){var
 e=M(d(ap,a[2]),b);return g(M(a[1],c),e)}function
@@ -6247,7 +6252,7 @@ b0(d,b,c){switch(b[0]){case
 0:var
 o=b[1];return bV([0,[0,o,o],e],c);case
 1:var
-q=b[1];return qq(n(e),d,q);case
+q=b[1];return qr(n(e),d,q);case
 2:return bB(b0(d,b[1],c));case
 3:var
 i=b[2],g=b[1],h=C;break;case
@@ -6259,7 +6264,7 @@ i=b[2],g=b[1],h=u;break;case
 i=b[2],g=b[1],h=aj;break;case
 7:var
 j=fF(b[2]),k=b0(d,b[1],c);if(j){if(j[1]){var
-l=_(k),p=function(a){return u(a,l)},m=g1(aY(mA(j)),p,l);return mz(j)?m:u(m,k)}return k}return n(a);default:return aR(b0(d,b[1],c))}var
+l=$(k),p=function(a){return u(a,l)},m=g1(aY(mB(j)),p,l);return mA(j)?m:u(m,k)}return k}return n(a);default:return aR(b0(d,b[1],c))}var
 r=b0(d,i,P(c,f(cf(g))));return h(b0(d,g,c),r)}function
 dF(c,h,b){var
 a=h;for(;;)switch(a[0]){case
@@ -6273,22 +6278,22 @@ a=a[1];continue;case
 0:case
 1:return 0;default:var
 d=a[1],i=P(b,f(cf(d))),j=dF(c,a[2],i);return g(dF(c,d,b),j)}}function
-qr(i,h,g){var
+qs(i,h,g){var
 b=i,a=h,c=g;for(;;){if(a){var
 d=a[1],e=d[2],j=P(c,f(cf(e))),k=a[2],l=b0(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
 kM(c,a,b){if(a){var
 e=a[1],d=e[2],h=P(b,f(cf(d))),i=a[2],j=b0(c,d,b),k=kM([0,[0,e[1],j],c],i,h);return g(dF(c,d,b),k)}return a}function
 gj(a){return x(cf,a)}function
-qs(c,a,b){if(a)var
-d=a[1],g=P(b,f(cf(d))),h=qs(c,a[2],g),e=[0,b0(c,d,b),h];else
+qt(c,a,b){if(a)var
+d=a[1],g=P(b,f(cf(d))),h=qt(c,a[2],g),e=[0,b0(c,d,b),h];else
 var
 e=a;return e}function
-qt(c,a,b){if(a){var
-d=a[1],e=P(b,f(cf(d))),h=qt(c,a[2],e);return g(dF(c,d,b),h)}return a}function
+qu(c,a,b){if(a){var
+d=a[1],e=P(b,f(cf(d))),h=qu(c,a[2],e);return g(dF(c,d,b),h)}return a}function
 h9(a){return 0===a[0]?gj(a[1]):cf(a[1])}function
 kN(c,b,a){if(b){var
 d=b[1],j=P(a,f(h9(d))),k=kN(c,b[2],j);if(0===d[0])var
-h=qt(c,d[1],a);else
+h=qu(c,d[1],a);else
 var
 e=d[1],i=dF(c,e,a),h=[0,b0(c,e,a),i];return g(h,k)}return b}function
 h_(c){var
@@ -6305,10 +6310,10 @@ a=b[1];switch(a[0]){case
 b=a[1];continue;case
 6:var
 d=kO(a[2]);return u(kO(a[1]),d);case
-9:return a[1];default:return _(b)}}}function
+9:return a[1];default:return $(b)}}}function
 kP(m,h,b,g){if(b){var
 c=b[1],x=P(g,f(h9(c))),y=kP(m,h,b[2],x);if(0===c[0])var
-k=qs(h,c[1],g),o=[0,k,n(a),k,0,0,0,0,0];else
+k=qt(h,c[1],g),o=[0,k,n(a),k,0,0,0,0,0];else
 var
 l=b0(h,c[1],g),q=h_(l),i=bh(ax(0,m),q),e=h_(i[2]),j=d(h_,i[1]),r=0,s=0,t=0,u=0,v=[0,l],w=d(function(b){return a3(b,e)?n(a):aj(b,e)},j),o=[0,j,kO(e),w,v,u,t,s,r];var
 p=[0,o,y]}else
@@ -6330,12 +6335,12 @@ e=a[1];return ag(function(a){return aM(e,a)},b);case
 a=a[1];continue;default:var
 c=kS(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-qu(d){var
+qv(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=J(ag(function(b){return function(a){return uc(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=J(ag(function(b){return function(a){return ud(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-qv(a){var
-u=d(ap,a[2]),e=g(a[1],u),h=f(a[1]),o=ae(yk,h),p=o?ae(h,yl):o,q=p?ae(h,f(a[4])):p,r=q?ae(f(a[4]),ym):q,s=r?qu(e):r;if(s){var
+qw(a){var
+u=d(ap,a[2]),e=g(a[1],u),h=f(a[1]),o=ae(yl,h),p=o?ae(h,ym):o,q=p?ae(h,f(a[4])):p,r=q?ae(f(a[4]),yn):q,s=r?qv(e):r;if(s){var
 c=e,b=a[3];for(;;){if(b){var
 j=b[1],l=j[1],m=J(ag(function(b){return function(a){return aM(b,a)}}(l),c)),n=m?kS(c,j[2]):m;if(n){var
 c=[0,l,c],b=b[2];continue}var
@@ -6380,47 +6385,47 @@ b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-yn(a){var
+yo(a){var
 b=a[4],d=0;if(typeof
 b!=="number"&&0===b[0]){var
 c=[0,b[1],0];d=1}if(!d)var
 c=0;var
 e=g(a[3],c);return g(a[1],e)}function
 ia(a){return f(a[1])}function
-qw(a){var
-b=f(gj(d(aE,a[3])));return P(f(a[2]),b)}function
 qx(a){var
-b=f(a[2]),c=a[3];return qr(h$(a),c,b)}function
+b=f(gj(d(aE,a[3])));return P(f(a[2]),b)}function
 qy(a){var
-b=qw(a),c=a[4],d=qx(a);return kP(ia(a),d,c,b)}function
-qz(a,b){var
+b=f(a[2]),c=a[3];return qs(h$(a),c,b)}function
+qz(a){var
+b=qx(a),c=a[4],d=qy(a);return kP(ia(a),d,c,b)}function
+qA(a,b){var
 c=x(h9,a[4]),e=g(gj(d(aE,a[3])),c);return g(b,d(function(a){return a[1][1]},e))}function
-qA(b,a){return k(function(a){if(0===a[0]){var
+qB(b,a){return k(function(a){if(0===a[0]){var
 c=ia(b);return m(f(a[1]),c)}return 1},a)}function
 kU(f,d){function
 b(b){return q(b,d,[0,e,a])}var
 c=[0,e,a];switch(f){case
 0:var
-g=b(yp);return[0,b(0),g,c];case
+g=b(yq);return[0,b(0),g,c];case
 1:var
-h=b(yq),i=b(yr);return[0,b(0),i,h];default:return[0,c,c,c]}}function
+h=b(yr),i=b(ys);return[0,b(0),i,h];default:return[0,c,c,c]}}function
 kV(f,d){function
 b(b){return q(b,d,[0,e,a])}var
 c=[0,e,a];switch(f){case
-0:return[0,c,c,b(ys)];case
+0:return[0,c,c,b(yt)];case
 1:var
-g=b(yt),h=b(yu);return[0,b(yv),h,g];default:var
-i=b(yw),j=b(yx);return[0,b(0),j,i]}}function
-qB(t,s,k,j,r,d){var
+g=b(yu),h=b(yv);return[0,b(yw),h,g];default:var
+i=b(yx),j=b(yy);return[0,b(0),j,i]}}function
+qC(t,s,k,j,r,d){var
 c=bl(k,j,r,d);if(0===d[0])var
 e=bL(d[1],c);else
 var
 b=d[1],f=f9(b,c),g=f_(b,c),h=f$(b,c),i=d8(b,c),l=T([3,[4,h,g],[4,i,f]],f8(b)),m=T([2,[4,h,f],[4,i,g]],e3(b)),n=O(function(b,a){return[2,b,a]},m,l),o=T(b[5],n),p=hO(b,c),q=T(hP(b,c),p),e=O(function(b,a){return[3,b,a]},q,o);return kp(t,e,T([5,[0,a,a],s],cA(ee(k,j,ed(d)),e)))}function
-qC(c,b,a){return b?ga(c,b[1],a):a?0:1}function
-qD(e,b,i,a,c,o,h,n,g){var
-p=as(b),j=m(f(c),p),k=j?qC(e,a,h):j,l=k?qC(e,a,g):k;if(l){var
-q=d(function(c){return qB(b,i,a,g,n,c)},c),r=d(function(c){return qB(b,i,a,h,o,c)},c);return kJ(e,as(b),r,q)}return l}function
-qE(c,j,d,b,a){var
+qD(c,b,a){return b?ga(c,b[1],a):a?0:1}function
+qE(e,b,i,a,c,o,h,n,g){var
+p=as(b),j=m(f(c),p),k=j?qD(e,a,h):j,l=k?qD(e,a,g):k;if(l){var
+q=d(function(c){return qC(b,i,a,g,n,c)},c),r=d(function(c){return qC(b,i,a,h,o,c)},c);return kJ(e,as(b),r,q)}return l}function
+qF(c,j,d,b,a){var
 e=aF(d,j),f=e?bp(b,a):e;if(f)var
 k=cW(c,a)[2],h=[0,cW(c,b)[1],k],l=[0,cW(c,dS(a,b)),0],i=[0,[0,h,h,g(X(t,d),l)]];else
 var
@@ -6429,14 +6434,14 @@ kW(a){if(a){var
 b=a[1];if(b)var
 c=kW(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return yA}function
-qF(c,b,a){if(b){if(a){var
-d=b[1],f=qF(c,b[2],a[2]),g=a[1],h=function(b,a){return w(r(c,d,b),a)},i=function(a){return a};return aJ(function(a){return r(c,d,a)},i,h,g,f)}var
+d=b;return d}return yB}function
+qG(c,b,a){if(b){if(a){var
+d=b[1],f=qG(c,b[2],a[2]),g=a[1],h=function(b,a){return w(r(c,d,b),a)},i=function(a){return a};return aJ(function(a){return r(c,d,a)},i,h,g,f)}var
 e=a}else
 var
 e=b;return e}function
-qG(c,b,a){if(b){if(a){var
-d=qG(c,b[2],a[2]);return w(r(c,b[1],a[1]),d)}return t}return t}function
+qH(c,b,a){if(b){if(a){var
+d=qH(c,b[2],a[2]);return w(r(c,b[1],a[1]),d)}return t}return t}function
 ib(b){return an(function(d,b){var
 e=c(2,a);return G(cq(bR(d),e),b)},e,b)}function
 ic(b,i,h){var
@@ -6444,9 +6449,9 @@ e=f(i);function
 u(g,e,f){var
 d=[0,a,c(2,a)];return[0,R(cW(b,bb(dR(e,f),d)))]}var
 j=kW(d(function(a){return eO(b,u,a)},i));if(j){var
-v=j[1],w=function(a,c,d){return qE(b,e,a,c,d)},l=kW(d(function(a){return eO(b,w,a)},i));if(l){var
-x=function(a){return cW(b,a)},o=d(function(a){return d(x,a)},h),y=l[1],z=d(function(a){return a[3]},y),A=d(function(a){return qG(b,a,d(function(a){return a[2]},v))},o),C=M(ax(0,e),o),F=d(function(c){var
-i=qF(b,c[2],z),j=c[1],d=[0,K(b,a),0],e=g(X(t,j),d);function
+v=j[1],w=function(a,c,d){return qF(b,e,a,c,d)},l=kW(d(function(a){return eO(b,w,a)},i));if(l){var
+x=function(a){return cW(b,a)},o=d(function(a){return d(x,a)},h),y=l[1],z=d(function(a){return a[3]},y),A=d(function(a){return qH(b,a,d(function(a){return a[2]},v))},o),C=M(ax(0,e),o),F=d(function(c){var
+i=qG(b,c[2],z),j=c[1],d=[0,K(b,a),0],e=g(X(t,j),d);function
 f(b,a){return B(b,ak(a))}function
 h(a){return N(ak(a))}return aJ(function(a){return a},h,f,e,i)},C),p=m(f(h),e),q=p?k(function(a){return m(f(a),e)},h):p;if(q)var
 G=c(2,a),H=cq(cR(b),G),I=ib(A),n=D(E(c(2,c(2,a)),I),H);else
@@ -6479,7 +6484,7 @@ d=b;else
 var
 d=c;return d}}function
 kY(b,d,c){var
-a=eO(b,function(a,c,e){return qE(b,d,a,c,e)},c);return a?I(e,a[1][2][1]):a}function
+a=eO(b,function(a,c,e){return qF(b,d,a,c,e)},c);return a?I(e,a[1][2][1]):a}function
 kZ(f,e,b,a){var
 c=a[1],d=b[1],g=c[2],h=a[2],i=d[2],j=b[2],l=[0,d[1],[0,c[1],0]];return k(function(a){var
 b=[0,i,[0,g,0]];return k(function(b){var
@@ -6490,12 +6495,12 @@ k0(a){switch(a[0]){case
 c=[0,a[4],0],d=g(a5(a[3]),c),e=g(a5(a[2]),d);return g(a5(a[1]),e);case
 1:var
 b=a[3],f=b?a5(b[1]):b,h=g(a5(a[2]),f);return g(a5(a[1]),h);default:return a5(a[1])}}function
-qH(a){return 1===a[0]?0:1}function
+qI(a){return 1===a[0]?0:1}function
 gk(b,a){var
 c=bb(a,a);return bp(bb(b,b),c)?a:b}function
 gl(b,a,e,d){var
 c=d$(b,a,bc(e));return c?d$(b,a,bc(d)):c}function
-qI(f,d,c,b){switch(d[0]){case
+qJ(f,d,c,b){switch(d[0]){case
 0:if(c){if(c[2])return 0;if(b)return b[2]?0:gl(f,d[1],c[1],b[1]);var
 x=b}else
 var
@@ -6569,10 +6574,10 @@ L=q;var
 M=L}else
 var
 M=c;return M}}function
-qJ(b){var
-c=q(yE,b,[0,e,a]),d=q(yF,b,[0,e,a]);return[0,q(0,b,[0,e,a]),d,c]}function
+qK(b){var
+c=q(yF,b,[0,e,a]),d=q(yG,b,[0,e,a]);return[0,q(0,b,[0,e,a]),d,c]}function
 ie(b){var
-c=q(yG,b,[0,e,a]),d=q(yH,b,[0,e,a]);return[0,[0,q(0,b,[0,e,a]),d],c]}function
+c=q(yH,b,[0,e,a]),d=q(yI,b,[0,e,a]);return[0,[0,q(0,b,[0,e,a]),d],c]}function
 k1(d,c,b,a){var
 e=cd(d,c,b,a);return v(cd(d,c,b,a),e)}var
 c5=c(2,c(2,c(2,c(2,c(2,s(c(2,a)))))));function
@@ -6584,18 +6589,18 @@ fd(c,b){var
 d=[0,e,a];return an(function(b,a){return[2,h(c,b),a]},d,b)}function
 gm(b,a){return an(function(c,a){var
 d=h(b,c);return O(function(b,a){return[2,b,a]},d,a)},k2,a)}function
-qK(c){var
+qL(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
 1:return aF(a[1],dX);case
 6:var
 a=a[1];continue;default:var
-b=qK(a[1]);if(b){var
+b=qL(a[1]);if(b){var
 a=a[2];continue}return b}}function
-dG(a){return k(qK,a)}function
+dG(a){return k(qL,a)}function
 k3(d,h,c,f){var
 a=eO(d,function(c,e,f){var
-a=aF(c,P(dX,h)),b=a?bp(e,f):a,g=b?[0,m9(d,c,e,f)]:b;return g},f);if(a){var
+a=aF(c,P(dX,h)),b=a?bp(e,f):a,g=b?[0,m_(d,c,e,f)]:b;return g},f);if(a){var
 b=a[1],e=aw(dX,b[3]),g=jo(ib(aw(c,e))),i=jo(ib(ao(c,e))),j=W(G(G(hg(ao(dX,b[3])),i),g));return I(b[1][2],j)}return a}function
 ig(b,a,c){if(b)if(a)var
 f=a[1],g=ig(b[2],a[2],c),h=I(b[1],e)?[3,f,c]:[2,f,c],d=[0,h,g];else
@@ -6611,7 +6616,7 @@ ej(b){if(cu(b[1],b[2]))return b[1];var
 d=[0,c(2,a),a];return[5,[2,b[1],b[2]],d]}function
 bO(a){var
 b=ej(a[3]),c=ej(a[2]);return[0,ej(a[1]),c,b]}function
-qL(a){switch(a[0]){case
+qM(a){switch(a[0]){case
 0:var
 b=a[1],c=b[5],d=ej(b[4]),e=bO(b[3]),f=bO(b[2]);return[0,bO(b[1]),f,e,d,c];case
 1:var
@@ -6622,12 +6627,12 @@ q=F(g[3],Q);if(q){var
 j=q[1];if(typeof
 j!=="number"&&14===j[0]){var
 B=j[2],C=j[1],r=ih(aG(c5,B));if(r){var
-s=r[1],R=cE(yO,s),S=cE(yP,s),t=[0,cE(0,s),S,R],D=i(h,1,B),E=D?i(h,0,C):D;if(E)var
+s=r[1],R=cE(yP,s),S=cE(yQ,s),t=[0,cE(0,s),S,R],D=i(h,1,B),E=D?i(h,0,C):D;if(E)var
 U=f(g[1]),u=m(f(o),U);else
 var
 u=E;var
 G=u?k(function(a){return dG(k0(a))},p):u;if(G){var
-V=g[1],H=ig(o,d(function(a){return c3(qL(a),b)},V),C),I=dG(H);if(I){var
+V=g[1],H=ig(o,d(function(a){return c3(qM(a),b)},V),C),I=dG(H);if(I){var
 w=M(M(p,H),o),l=function(k){var
 f=k[1][2],d=k[1][1];switch(d[0]){case
 0:var
@@ -6640,7 +6645,7 @@ e=j[1],f=e[2],c=e[1],d=j[2];switch(c[0]){case
 g=c[3],h=c[2],i=c[1],k=aW(h,g,b),l=[3,v(aH(i),k),f],m=cb(i,h,g,c[4],b);return ei([5,[0,d,a],[2,cz(c[5],m),l]]);case
 1:return ei([5,[0,d,a],[2,f,c3(c,b)]]);default:return[0,d,a]}},L=v(t,t),N=[4,fd(function(a){var
 b=l(a)[3];return[4,n(a),b]},w),L],P=v(gm(function(a){var
-b=l(a)[2];return T(n(a),b)},w),t);return k3(h,yR,yQ,[2,[2,fd(function(a){var
+b=l(a)[2];return T(n(a),b)},w),t);return k3(h,yS,yR,[2,[2,fd(function(a){var
 b=l(a)[1];return[4,n(a),b]},w),P],N])}var
 J=I}else
 var
@@ -6654,17 +6659,17 @@ z=q;var
 A=z}else
 var
 A=y;return A}function
-yS(a){var
+yT(a){var
 b=dG(a5(a[3])),c=b?dG(a5(a[4])):b;return c?dG([0,a[2],0]):c}function
-qM(a,e,c){var
+qN(a,e,c){var
 b=ax(0,bM(a));return d(function(b){var
 d=aF(b,bZ(a))?e:c;return cE(b,d)},b)}function
-qN(d,b,f){if(typeof
+qO(d,b,f){if(typeof
 d==="number"){if(d){var
-g=cE(yT,b);return[0,[0,cE(0,b),g,[0,e,a]],k2]}var
-h=cE(yU,b),i=cE(yV,b);return[0,[0,cE(0,b),i,h],k2]}var
-c=d[1],j=kV(c,qM(c,b,f));return[0,kU(c,qM(c,b,f)),j]}function
-qO(g,d,u,o,b){var
+g=cE(yU,b);return[0,[0,cE(0,b),g,[0,e,a]],k2]}var
+h=cE(yV,b),i=cE(yW,b);return[0,[0,cE(0,b),i,h],k2]}var
+c=d[1],j=kV(c,qN(c,b,f));return[0,kU(c,qN(c,b,f)),j]}function
+qP(g,d,u,o,b){var
 p=ih(aG(c5,u));if(p){var
 w=p[1],q=typeof
 d==="number"?[0,[0,a,a]]:ih(h(cB(c5),o));if(q){var
@@ -6675,11 +6680,11 @@ var
 B=i(g,1,o),C=B?cC(g,o):B,j=C?J(bp(r,[0,e,a])):C;else
 var
 j=x;var
-y=j?k(yS,b):j;if(y){var
-f=qN(d,w,r)[2],l=qN(d,w,r)[1],m=[0,c(2,a),a],n=function(c){return gm(function(a){var
+y=j?k(yT,b):j;if(y){var
+f=qO(d,w,r)[2],l=qO(d,w,r)[1],m=[0,c(2,a),a],n=function(c){return gm(function(a){var
 b=a[3],d=h(c,a[4]);return T([4,a[1],d],b)},b)},s=fd(function(a){var
 b=v(a[3],a[4]);return[4,a[1],b]},b),t=v(f,f),D=n(function(a){return a[3]}),E=T(f[3],D),F=n(function(a){return a[2]}),G=T(f[2],F),H=n(function(a){return a[1]}),I=T(f[1],H),K=O(function(b,a){return[2,b,a]},I,G),L=[4,t,s],M=v(f,O(function(b,a){return[2,b,a]},K,E)),N=[3,[2,v(f,gm(function(a){var
-b=cA(a[4],a[3]);return T(a[1],b)},b)),M],L],P=[2,[4,m,s],[4,[5,[0,c(2,c(2,a)),a],[2,[0,a,a],t]],N]],Q=[4,m,v(l,o$(f,gm(function(a){return T(a[1],a[4])},b)))],R=v(l,l),S=[2,[4,fd(function(a){return a[1]},b),R],Q],U=[4,m,v(gm(function(a){return T(a[1],a[3])},b),l)],V=[2,[2,[2,fd(function(a){var
+b=cA(a[4],a[3]);return T(a[1],b)},b)),M],L],P=[2,[4,m,s],[4,[5,[0,c(2,c(2,a)),a],[2,[0,a,a],t]],N]],Q=[4,m,v(l,pa(f,gm(function(a){return T(a[1],a[4])},b)))],R=v(l,l),S=[2,[4,fd(function(a){return a[1]},b),R],Q],U=[4,m,v(gm(function(a){return T(a[1],a[3])},b),l)],V=[2,[2,[2,fd(function(a){var
 b=[4,a[2],a[2]],c=v(a[4],a[4]),d=[3,[2,v(a[3],a[3]),c],b];return[4,a[1],d]},b),U],S],P],W=typeof
 d==="number"?as(d):bZ(d[1]);return k3(g,as(d),W,V)}var
 z=y}else
@@ -6688,8 +6693,8 @@ z=q;var
 A=z}else
 var
 A=p;return A}function
-qP(a){return[6,v(a,a)]}function
-qQ(b){if(0===b[0])return[0,qL(b[1])];var
+qQ(a){return[6,v(a,a)]}function
+qR(b){if(0===b[0])return[0,qM(b[1])];var
 a=b[1],c=a[7],d=ej(a[6]),e=ej(a[5]),f=bO(a[4]),g=bO(a[3]),h=bO(a[2]);return[1,[0,bO(a[1]),h,g,f,e,d,c]]}function
 ii(f,d,c,a){if(typeof
 a==="number")return 0;else{if(0===a[0]){var
@@ -6701,7 +6706,7 @@ d=k4(b,h);return[4,d,d]}var
 f=k4(b,h);return[4,[4,f,f],b]}function
 a6(c,b){switch(b[0]){case
 0:return b[1];case
-1:return qq([0,e,a],c,b[1]);case
+1:return qr([0,e,a],c,b[1]);case
 2:return[3,[0,e,a],a6(c,b[1])];case
 3:var
 d=a6(c,b[2]);return[2,a6(c,b[1]),d];case
@@ -6728,7 +6733,7 @@ b=gp(a[1]);if(b){var
 a=a[2];continue}return b}}function
 k5(a){if(a){var
 b=a[1];if(0===b[0])return 0;var
-c=b[1],d=k5(a[2]);return y(function(a){return[0,c,a]},d)}return yY}function
+c=b[1],d=k5(a[2]);return y(function(a){return[0,c,a]},d)}return yZ}function
 fe(c,d,p){var
 b=p;for(;;)switch(b[0]){case
 6:var
@@ -6746,7 +6751,7 @@ b=b[1];continue;case
 1:return 1;default:var
 f=fe(c,d,b[1]);if(f){var
 b=b[2];continue}return f}}function
-qR(j,c,i,h,n){var
+qS(j,c,i,h,n){var
 o=c[3],b=kL(c,h,i),a=o;for(;;){if(a){var
 e=a[1],f=e[2],g=fe(j,b,f);if(g){var
 l=a[2],m=a6(b,f),b=[0,[0,e[1],m],b],a=l;continue}var
@@ -6755,19 +6760,19 @@ var
 d=1;if(d){var
 p=go(c,i,h);return k(function(a){return fe(j,p,a)},n)}return d}}var
 ik=A(n(a),ij);function
-qS(e){var
-b=_(ik);if(e)var
+qT(e){var
+b=$(ik);if(e)var
 f=u(n(c(2,a)),b),g=C(n(c(2,c(2,a))),f),h=u(n(c(2,a)),b),d=aj(C(n(a),h),g);else
 var
-i=C(n(c(2,a)),b),j=_(ij),d=aj(C(u(n(c(2,a)),j),b),i);return aR(d)}function
-qT(d,c,b){if(d){var
-e=qS(c),f=C(n(a),e),g=u(A(n(a),b),f);return A(n(a),g)}var
-h=n(a),i=qS(c),j=aj(n(a),i);return A(u(b,C(n(a),j)),h)}function
+i=C(n(c(2,a)),b),j=$(ij),d=aj(C(u(n(c(2,a)),j),b),i);return aR(d)}function
+qU(d,c,b){if(d){var
+e=qT(c),f=C(n(a),e),g=u(A(n(a),b),f);return A(n(a),g)}var
+h=n(a),i=qT(c),j=aj(n(a),i);return A(u(b,C(n(a),j)),h)}function
 ff(f,e,d,b){var
-g=_(b),h=_(d),i=A(A(n(c(2,a)),h),g),j=f?e?ik:aj(ik,u(n(c(2,a)),ij)):aj(ik,n(c(2,a))),k=u(_(j),i);return aR(C(n(a),k))}function
-qU(b,d){var
-h=b?a:W(a),e=n(h),f=qT(b,d,y3),g=qT(b,d,y4),i=aj(f,ff(b,d,e,f)),j=[0,C(aj(g,ff(b,d,g,e)),i),0],k=aj(e,ff(b,d,e,f)),l=[0,C(aj(g,ff(b,d,f,g)),k),j],m=aj(e,ff(b,d,g,e)),o=[0,C(aj(f,ff(b,d,f,g)),m),l],p=b?d?n(c(2,a)):u(n(c(2,c(2,a))),ij):n(c(2,c(2,a)));return[0,p,o]}function
-qV(g,d){var
+g=$(b),h=$(d),i=A(A(n(c(2,a)),h),g),j=f?e?ik:aj(ik,u(n(c(2,a)),ij)):aj(ik,n(c(2,a))),k=u($(j),i);return aR(C(n(a),k))}function
+qV(b,d){var
+h=b?a:W(a),e=n(h),f=qU(b,d,y4),g=qU(b,d,y5),i=aj(f,ff(b,d,e,f)),j=[0,C(aj(g,ff(b,d,g,e)),i),0],k=aj(e,ff(b,d,e,f)),l=[0,C(aj(g,ff(b,d,f,g)),k),j],m=aj(e,ff(b,d,g,e)),o=[0,C(aj(f,ff(b,d,f,g)),m),l],p=b?d?n(c(2,a)):u(n(c(2,c(2,a))),ij):n(c(2,c(2,a)));return[0,p,o]}function
+qW(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?w(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
 k6(w,v,u,t){var
@@ -6802,12 +6807,12 @@ r=f;var
 s=r}else
 var
 s=a;return s}function
-qW(f,i,d,c,h){var
+qX(f,i,d,c,h){var
 j=f?a:e,b=K(i,j);function
 g(a){var
 c=f?bq(a):bS(a);return B(c,b)}var
 k=[0,R(h),0],l=[0,[0,b,c,[0,t,[0,g(c),0]]],k];return[0,[0,b,d,[0,g(d),0]],l]}function
-qX(r,b,q,p,g,o,n){if(o){var
+qY(r,b,q,p,g,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(g){var
 h=g[2],c=0;if(h){var
@@ -6816,16 +6821,16 @@ a=0;c=1;e=1}else{var
 t=i[1],k=h[1],l=g[1],f=0;if(typeof
 j==="number")switch(j){case
 0:var
-A=d(aq,a4(y5)),z=d(R,0),a=k6(b,p,cS(0,b_(b,cX(0,g),z),q),A);c=1;e=1;f=1;break;case
+A=d(aq,a4(y6)),z=d(R,0),a=k6(b,p,cS(0,b_(b,cX(0,g),z),q),A);c=1;e=1;f=1;break;case
 3:var
 a=D(k[2],l[1]);c=1;e=1;f=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-B=d(qV,y6),a=k6(b,p,cS(0,b_(b,qW(r,b,l,k,t),0),q),B);c=1;e=1;f=1}else{var
+B=d(qW,y7),a=k6(b,p,cS(0,b_(b,qX(r,b,l,k,t),0),q),B);c=1;e=1;f=1}else{var
 a=m;c=1;e=1;f=1}else
 if(m){var
 a=0;c=1;e=1;f=1}else{var
-C=d(qV,y7),a=k6(b,p,cS(0,b_(b,qW(r,b,l,k,t),0),q),C);c=1;e=1;f=1}}if(!f)var
+C=d(qW,y8),a=k6(b,p,cS(0,b_(b,qX(r,b,l,k,t),0),q),C);c=1;e=1;f=1}}if(!f)var
 u=0}else
 var
 u=i;if(!e)var
@@ -6835,24 +6840,24 @@ v=h;if(!c){var
 w=v;s=1}}else{var
 w=g;s=1}if(s)var
 a=w;var
-y=a?y8:a}else
+y=a?y9:a}else
 var
 y=n;return y}return[0,n]}function
-qY(f,e,d,c,p,o,n){var
+qZ(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;)switch(a[0]){case
 0:var
-h=qX(f,e,d,c,b,a[1],g);return h?J(h[1]):h;case
+h=qY(f,e,d,c,b,a[1],g);return h?J(h[1]):h;case
 1:var
-i=qX(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=ds(a[2],b),l=qY(f,e,d,c,k[1],j,a[3]);if(l){var
+i=qY(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=ds(a[2],b),l=qZ(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m;default:return 0}}function
 k7(b){return cq(c(2,a),aX(b,a))}function
 fg(c,a,b,i,h){var
-f=dm(qU(a,b)),j=qU(a,b),k=d(cT(dl(f)),j),g=[0,e,cR(c)];return qY(a,c,f,k,[0,g,[0,g,[0,i,0]]],1,h)}function
-qZ(a,g,b){if(I(g,k7(a))){if(b){var
+f=dm(qV(a,b)),j=qV(a,b),k=d(cT(dl(f)),j),g=[0,e,cR(c)];return qZ(a,c,f,k,[0,g,[0,g,[0,i,0]]],1,h)}function
+q0(a,g,b){if(I(g,k7(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
@@ -6886,250 +6891,250 @@ b=[1,[2,e]];return bz(function(b,a){return[1,[3,b,a]]},a,b)}function
 il(a){return k8(d(function(a){return[1,[8,[1,[2,a]]]]},a))}function
 im(a,c){return k8(d(function(a){var
 e=[0,a[2]],b=M(a[1],c);return[1,[7,[1,[8,k8(d(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],e]]},a))}function
-q0(e,d,c,b,a){if(0===a[0])return q(a[1],b,0);var
-f=a[1],g=b9(function(a){return q0(e,d,c,b,a)},f);return h(b_(e,d,c),g)}function
-q1(a){return a?I(e,a[1][2][1]):a}function
-y9(a){var
-b=m(f(a),y_);return b?ag(function(a){return J(H(a,e))},a):b}function
-q2(c,f,b,a){if(b)if(a)var
-d=b[1],g=r(c,K(c,a[1]),f),h=q2(c,f,b[2],a[2]),i=d[3],j=w(d[2],g),e=[0,[0,w(d[1],g),j,i],h];else
+q1(e,d,c,b,a){if(0===a[0])return q(a[1],b,0);var
+f=a[1],g=b9(function(a){return q1(e,d,c,b,a)},f);return h(b_(e,d,c),g)}function
+q2(a){return a?I(e,a[1][2][1]):a}function
+y_(a){var
+b=m(f(a),y$);return b?ag(function(a){return J(H(a,e))},a):b}function
+q3(c,f,b,a){if(b)if(a)var
+d=b[1],g=r(c,K(c,a[1]),f),h=q3(c,f,b[2],a[2]),i=d[3],j=w(d[2],g),e=[0,[0,w(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-q3(d,c){var
+q4(d,c){var
 a=F(c,d);if(a){var
 b=a[1],e=b[1];return J(H(cw(b),e))}return a}function
 io(b,a){return eI(eI(b,0),a)}function
 k9(a){if(a){var
-b=a[2],c=a[1];if(b)return io(c,[0,za,k9(b)]);var
+b=a[2],c=a[1];if(b)return io(c,[0,zb,k9(b)]);var
 d=c}else
 var
 d=a;return d}function
-L(a){return[0,zc,io(k9(a),zb)]}function
-al(a){return[0,ze,io(k9(a),zd)]}function
-ay(a){return[0,zg,[0,a,zf]]}function
-o(b,a){return[0,bo(zi,bo(b,zh)),a]}function
+L(a){return[0,zd,io(k9(a),zc)]}function
+al(a){return[0,zf,io(k9(a),ze)]}function
+ay(a){return[0,zh,[0,a,zg]]}function
+o(b,a){return[0,bo(zj,bo(b,zi)),a]}function
 U(b,a){return al([0,o(b,a),0])}function
 c6(d){var
-b=d,a=uI,e=0;for(;;){if(b){var
-c=my(a),b=b[1],a=c;continue}return[0,fI(gZ(a)),e]}}function
+b=d,a=uJ,e=0;for(;;){if(b){var
+c=mz(a),b=b[1],a=c;continue}return[0,fI(gZ(a)),e]}}function
 k_(a){return[0,fI(g_(a)),0]}function
 gq(a){var
-c=a1(a),f=0,b=0===c?uO:0<c?[0,g_(a)]:[1,g_(W(a))];if(0===b[0])var
+c=a1(a),f=0,b=0===c?uP:0<c?[0,g_(a)]:[1,g_(W(a))];if(0===b[0])var
 d=fI(b[1]);else
 var
 e=fI(b[1]),d=bo(b6(1,45),e);return[0,d,f]}function
 ek(a){var
-b=0,c=0<a1(a)?g_(a):uM;return[0,fI(c),b]}function
+b=0,c=0<a1(a)?g_(a):uN;return[0,fI(c),b]}function
 k$(a){switch(a[0]){case
-2:return zk;case
-3:return 2<=a[1]?zl:zm;case
-4:return zn;default:return zj}}function
+2:return zl;case
+3:return 2<=a[1]?zm:zn;case
+4:return zo;default:return zk}}function
 gr(b,a){function
-c(c,a){return ae(c,k$(a))?gr(b,a):[0,zt,g(gr(b,a),zs)]}switch(a[0]){case
+c(c,a){return ae(c,k$(a))?gr(b,a):[0,zu,g(gr(b,a),zt)]}switch(a[0]){case
 0:var
 e=a[2],f=a[1];if(typeof
 e==="number")return[0,bA(f),0];var
-i=[0,zu,[0,bA(e),0]];return[0,bA(f),i];case
+i=[0,zv,[0,bA(e),0]];return[0,bA(f),i];case
 1:return[0,h(b,a[1]),0];case
-2:return[0,zw,c(zv,a[1])];case
+2:return[0,zx,c(zw,a[1])];case
 3:var
 j=a[3],k=c([0,k$(a)],j);switch(a[1]){case
 0:var
-d=zo;break;case
-1:var
 d=zp;break;case
+1:var
+d=zq;break;case
 2:var
-d=zq;break;default:var
-d=zr}var
+d=zr;break;default:var
+d=zs}var
 l=a[2];return g(c(k$(a),l),[0,d,k]);case
 4:var
-m=[0,zx,k_(a[2])];return g(c(zy,a[1]),m);default:return[0,zA,g(gr(b,a[1]),zz)]}}function
-V(a){return[0,zD,g(gr(function(a){return 0===a[0]?a[1]:zC},a),zB)]}function
-la(a){return[0,zF,g(gr(function(a){return a},a),zE)]}function
+m=[0,zy,k_(a[2])];return g(c(zz,a[1]),m);default:return[0,zB,g(gr(b,a[1]),zA)]}}function
+V(a){return[0,zE,g(gr(function(a){return 0===a[0]?a[1]:zD},a),zC)]}function
+la(a){return[0,zG,g(gr(function(a){return a},a),zF)]}function
 c7(a){if(0===a[0])return V(a[1]);var
-b=[0,o(zG,V(a[2])),0];return al([0,o(zH,V(a[1])),b])}function
+b=[0,o(zH,V(a[2])),0];return al([0,o(zI,V(a[1])),b])}function
 ip(b,a){var
 c=[0,h(b,a[3]),0],d=[0,h(b,a[2]),c];return L([0,h(b,a[1]),d])}function
-zI(a){function
+zJ(a){function
 b(a){return ip(c7,a)}switch(a[0]){case
 0:var
-e=0,f=a[5]?zJ:zR,h=[0,o(zK,ay(f)),e],i=[0,o(zL,c7(a[4])),h],j=[0,o(zM,b(a[3])),i],k=[0,o(zN,b(a[2])),j],l=[0,o(zO,b(a[1])),k],c=[0,o(zQ,ay(zP)),l];break;case
+e=0,f=a[5]?zK:zS,h=[0,o(zL,ay(f)),e],i=[0,o(zM,c7(a[4])),h],j=[0,o(zN,b(a[3])),i],k=[0,o(zO,b(a[2])),j],l=[0,o(zP,b(a[1])),k],c=[0,o(zR,ay(zQ)),l];break;case
 1:var
-d=a[3],m=d?[0,o(zS,b(d[1])),0]:d,n=[0,o(zT,b(a[2])),0],p=[0,o(zU,b(a[1])),n],c=g([0,o(zW,ay(zV)),p],m);break;default:var
-q=[0,o(zX,b(a[1])),0],c=[0,o(zZ,ay(zY)),q]}return al(c)}function
-z0(a){function
+d=a[3],m=d?[0,o(zT,b(d[1])),0]:d,n=[0,o(zU,b(a[2])),0],p=[0,o(zV,b(a[1])),n],c=g([0,o(zX,ay(zW)),p],m);break;default:var
+q=[0,o(zY,b(a[1])),0],c=[0,o(z0,ay(zZ)),q]}return al(c)}function
+z1(a){function
 b(a){return L(d(c7,a))}function
 f(a){var
-b=a?z1:z3;return o(z2,ay(b))}switch(a[0]){case
+b=a?z2:z4;return o(z3,ay(b))}switch(a[0]){case
 0:var
-h=[0,f(a[5]),0],i=[0,o(z4,c7(a[4])),h],j=[0,o(z5,b(a[3])),i],k=[0,o(z6,b(a[2])),j],l=[0,o(z7,b(a[1])),k],c=[0,o(z9,ay(z8)),l];break;case
+h=[0,f(a[5]),0],i=[0,o(z5,c7(a[4])),h],j=[0,o(z6,b(a[3])),i],k=[0,o(z7,b(a[2])),j],l=[0,o(z8,b(a[1])),k],c=[0,o(z_,ay(z9)),l];break;case
 1:var
-e=a[3],m=e?[0,o(z_,b(e[1])),0]:e,n=[0,o(z$,b(a[2])),0],p=[0,o(Aa,b(a[1])),n],c=g([0,o(Ac,ay(Ab)),p],m);break;case
+e=a[3],m=e?[0,o(z$,b(e[1])),0]:e,n=[0,o(Aa,b(a[2])),0],p=[0,o(Ab,b(a[1])),n],c=g([0,o(Ad,ay(Ac)),p],m);break;case
 2:var
-q=[0,o(Ad,b(a[1])),0],c=[0,o(Af,ay(Ae)),q];break;default:var
-r=[0,f(a[7]),0],s=[0,o(Ag,c7(a[6])),r],t=[0,o(Ah,c7(a[5])),s],u=[0,o(Ai,b(a[4])),t],v=[0,o(Aj,b(a[3])),u],w=[0,o(Ak,b(a[2])),v],x=[0,o(Al,b(a[1])),w],c=[0,o(An,ay(Am)),x]}return al(c)}function
+q=[0,o(Ae,b(a[1])),0],c=[0,o(Ag,ay(Af)),q];break;default:var
+r=[0,f(a[7]),0],s=[0,o(Ah,c7(a[6])),r],t=[0,o(Ai,c7(a[5])),s],u=[0,o(Aj,b(a[4])),t],v=[0,o(Ak,b(a[3])),u],w=[0,o(Al,b(a[2])),v],x=[0,o(Am,b(a[1])),w],c=[0,o(Ao,ay(An)),x]}return al(c)}function
 lb(a){switch(a){case
-0:return Ao;case
-1:return Ap;case
-2:return Aq;case
-3:return Ar;case
-4:return As;case
-5:return At;case
-6:return Au;case
-7:return Av;case
-8:return Aw;case
-9:return Ax;case
-10:return Ay;case
-11:return Az;case
-12:return AA;case
-13:return AB;case
-14:return AC;case
-15:return AD;default:return AE}}function
+0:return Ap;case
+1:return Aq;case
+2:return Ar;case
+3:return As;case
+4:return At;case
+5:return Au;case
+6:return Av;case
+7:return Aw;case
+8:return Ax;case
+9:return Ay;case
+10:return Az;case
+11:return AA;case
+12:return AB;case
+13:return AC;case
+14:return AD;case
+15:return AE;default:return AF}}function
 lc(a){if(typeof
-a==="number")return AF;else
+a==="number")return AG;else
 switch(a[0]){case
-0:return AG;case
-1:return AH;default:return AI}}function
+0:return AH;case
+1:return AI;default:return AJ}}function
 gs(a){var
 c=a[4];if(typeof
 c==="number")var
 e=0;else
 switch(c[0]){case
 0:var
-e=[0,o(AJ,V(c[1])),0];break;case
+e=[0,o(AK,V(c[1])),0];break;case
 1:var
-e=[0,o(AK,V(c[1])),0];break;default:var
-n=[0,V(c[2]),0],e=[0,o(AL,L([0,V(c[1]),n])),0]}var
-p=[0,o(AM,ay(lc(a[4]))),e],i=a[3];if(i){var
+e=[0,o(AL,V(c[1])),0];break;default:var
+n=[0,V(c[2]),0],e=[0,o(AM,L([0,V(c[1]),n])),0]}var
+p=[0,o(AN,ay(lc(a[4]))),e],i=a[3];if(i){var
 b=i[1];switch(b[0]){case
 0:var
-r=L([0,V(b[1]),0]),k=a[1],q=0,s=6===k?AN:12===k?AR:AS,f=[0,o(AO,U(s,r)),q];break;case
+r=L([0,V(b[1]),0]),k=a[1],q=0,s=6===k?AO:12===k?AS:AT,f=[0,o(AP,U(s,r)),q];break;case
 1:var
-x=L(d(V,b[1])),m=a[1],w=0;if(14<=m)switch(m+s0|0){case
+x=L(d(V,b[1])),m=a[1],w=0;if(14<=m)switch(m+s1|0){case
 0:var
-h=AT;break;case
+h=AU;break;case
 1:var
-h=AV;break;default:var
-h=AW}else
+h=AW;break;default:var
+h=AX}else
 var
-h=AX;var
-f=[0,o(AU,U(h,x)),w];break;case
+h=AY;var
+f=[0,o(AV,U(h,x)),w];break;case
 2:var
-y=[0,o(AY,L([0,V(b[2]),0])),0],f=[0,o(A0,al([0,o(AZ,L([0,V(b[1]),0])),y])),0];break;default:var
-z=[0,o(A1,L([0,V(b[2]),0])),0],f=[0,o(A3,al([0,o(A2,L([0,V(b[1]),0])),z])),0]}var
+y=[0,o(AZ,L([0,V(b[2]),0])),0],f=[0,o(A1,al([0,o(A0,L([0,V(b[1]),0])),y])),0];break;default:var
+z=[0,o(A2,L([0,V(b[2]),0])),0],f=[0,o(A4,al([0,o(A3,L([0,V(b[1]),0])),z])),0]}var
 l=f}else
 var
 l=i;var
-t=g(l,p),j=a[2],u=j?[0,o(AP,c6(j[1])),0]:j,v=g(u,t);return al([0,o(AQ,ay(lb(a[1]))),v])}function
-q4(a){if(0===a[0]){var
-b=[0,o(A4,ip(V,a[2])),0];return U(A6,al([0,o(A5,ip(V,a[1])),b]))}var
-c=[0,V(a[5]),0],d=[0,o(A7,L([0,V(a[4]),c])),0],e=[0,o(A8,V(a[3])),d],f=[0,V(a[2]),0];return U(A_,al([0,o(A9,L([0,V(a[1]),f])),e]))}function
+t=g(l,p),j=a[2],u=j?[0,o(AQ,c6(j[1])),0]:j,v=g(u,t);return al([0,o(AR,ay(lb(a[1]))),v])}function
 q5(a){if(0===a[0]){var
-b=[0,o(A$,L(d(V,a[2]))),0];return U(Bb,al([0,o(Ba,L(d(V,a[1]))),b]))}return q4([1,a[1],a[2],a[3],a[4],a[5]])}function
-q6(a){switch(a){case
-0:return Bc;case
-1:return Bd;default:return Be}}function
-Bf(a){function
+b=[0,o(A5,ip(V,a[2])),0];return U(A7,al([0,o(A6,ip(V,a[1])),b]))}var
+c=[0,V(a[5]),0],d=[0,o(A8,L([0,V(a[4]),c])),0],e=[0,o(A9,V(a[3])),d],f=[0,V(a[2]),0];return U(A$,al([0,o(A_,L([0,V(a[1]),f])),e]))}function
+q6(a){if(0===a[0]){var
+b=[0,o(Ba,L(d(V,a[2]))),0];return U(Bc,al([0,o(Bb,L(d(V,a[1]))),b]))}return q5([1,a[1],a[2],a[3],a[4],a[5]])}function
+q7(a){switch(a){case
+0:return Bd;case
+1:return Be;default:return Bf}}function
+Bg(a){function
 b(a){return L(d(c7,a))}var
-c=[0,o(Bg,b(a[2])),0],e=[0,o(Bh,b(a[1])),c];return al([0,o(Bj,ay(Bi)),e])}function
-q7(a){function
+c=[0,o(Bh,b(a[2])),0],e=[0,o(Bi,b(a[1])),c];return al([0,o(Bk,ay(Bj)),e])}function
+q8(a){function
 b(b,a){var
 c=[0,V(a),0];return L([0,V(b),c])}switch(a[0]){case
-0:return U(Bk,b(a[1],a[2]));case
+0:return U(Bl,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,o(Bl,b(c[1],c[2])),0],g=[0,o(Bm,b(d[1],d[2])),f];return U(Bo,al([0,o(Bn,b(e[1],e[2])),g]));case
-2:return U(Bp,V(a[1]));default:var
-h=[0,o(Bq,V(a[2])),0];return U(Bs,al([0,o(Br,V(a[1])),h]))}}function
-Bt(a){function
+c=a[3],d=a[2],e=a[1],f=[0,o(Bm,b(c[1],c[2])),0],g=[0,o(Bn,b(d[1],d[2])),f];return U(Bp,al([0,o(Bo,b(e[1],e[2])),g]));case
+2:return U(Bq,V(a[1]));default:var
+h=[0,o(Br,V(a[2])),0];return U(Bt,al([0,o(Bs,V(a[1])),h]))}}function
+Bu(a){function
 b(a){return ip(V,a)}if(0===a[0])var
-c=a[5],e=c?[0,o(Bu,b(c[1])),0]:c,f=[0,V(a[4]),0],h=[0,o(Bv,L([0,V(a[3]),f])),0],i=[0,o(Bw,V(a[2])),h],j=[0,o(Bx,c6(a[1])),i],d=g([0,o(Bz,ay(By)),j],e);else
+c=a[5],e=c?[0,o(Bv,b(c[1])),0]:c,f=[0,V(a[4]),0],h=[0,o(Bw,L([0,V(a[3]),f])),0],i=[0,o(Bx,V(a[2])),h],j=[0,o(By,c6(a[1])),i],d=g([0,o(BA,ay(Bz)),j],e);else
 var
-k=[0,o(BA,V(a[4])),0],l=[0,o(BB,b(a[3])),k],m=[0,o(BC,b(a[2])),l],n=a[1]?BD:BF,d=[0,o(BE,ay(n)),m];return al(d)}function
-q8(a){var
-b=a?[0,o(BG,L(d(Bt,a))),0]:a;return b}function
+k=[0,o(BB,V(a[4])),0],l=[0,o(BC,b(a[3])),k],m=[0,o(BD,b(a[2])),l],n=a[1]?BE:BG,d=[0,o(BF,ay(n)),m];return al(d)}function
+q9(a){var
+b=a?[0,o(BH,L(d(Bu,a))),0]:a;return b}function
 ld(e,c,b,a){var
-f=[0,o(BH,L(d(gs,a))),0],h=g(q8(b),f),i=[0,o(BI,q4(c)),0];return al(g([0,o(BK,U(BJ,L(d(zI,e)))),i],h))}function
-BL(a){switch(a[0]){case
-0:return U(BM,ld(a[1],a[2],a[3],a[4]));case
+f=[0,o(BI,L(d(gs,a))),0],h=g(q9(b),f),i=[0,o(BJ,q5(c)),0];return al(g([0,o(BL,U(BK,L(d(zJ,e)))),i],h))}function
+BM(a){switch(a[0]){case
+0:return U(BN,ld(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],e=a[1],f=L(d(z0,a[2])),l=[0,o(BN,L(d(gs,a[6]))),0],m=b?[0,o(BO,q7(b[1])),0]:b,n=g(m,l),k=0,p=[0,o(BP,q5(a[4])),n];if(typeof
+b=a[5],c=a[3],e=a[1],f=L(d(z1,a[2])),l=[0,o(BO,L(d(gs,a[6]))),0],m=b?[0,o(BP,q8(b[1])),0]:b,n=g(m,l),k=0,p=[0,o(BQ,q6(a[4])),n];if(typeof
 e==="number")if(e)var
-h=BQ;else{var
-i=U(BV,f);k=1}else
+h=BR;else{var
+i=U(BW,f);k=1}else
 var
-h=q6(e[1]);if(!k)var
-q=c?[0,o(BR,V(c[1])),0]:c,i=U(h,al([0,o(BS,f),q]));return U(BU,al([0,o(BT,i),p]));case
+h=q7(e[1]);if(!k)var
+q=c?[0,o(BS,V(c[1])),0]:c,i=U(h,al([0,o(BT,f),q]));return U(BV,al([0,o(BU,i),p]));case
 2:var
-r=[0,o(BW,L(d(gs,a[7]))),0],s=g(q8(a[6]),r),t=[0,o(BX,q7(a[5])),0],u=[0,o(BY,q5(a[4])),t],v=[0,o(BZ,V(a[3])),0],w=al([0,o(B0,L(d(Bf,a[2]))),v]);return U(B2,al(g([0,o(B1,U(q6(a[1]),w)),u],s)));case
+r=[0,o(BX,L(d(gs,a[7]))),0],s=g(q9(a[6]),r),t=[0,o(BY,q8(a[5])),0],u=[0,o(BZ,q6(a[4])),t],v=[0,o(B0,V(a[3])),0],w=al([0,o(B1,L(d(Bg,a[2]))),v]);return U(B3,al(g([0,o(B2,U(q7(a[1]),w)),u],s)));case
 3:var
-x=[0,o(B3,L(d(gs,a[7]))),0],y=[0,o(B4,L(d(V,a[6]))),0],z=[0,o(B7,U(B6,al([0,o(B5,L(d(V,a[5]))),y]))),x],A=0,B=a[4],C=[0,o(B_,L(d(function(a){return 0===a[0]?U(B8,L(d(la,a[1]))):U(B9,la(a[1]))},B))),A],D=a[3],E=[0,o(B$,L(d(function(a){var
-b=[0,la(a[2]),0];return L([0,ay(a[1]),b])},D))),C],F=a[2],G=[0,o(Ca,L(d(function(a){var
-b=[0,c7(a[2]),0];return L([0,ay(a[1]),b])},F))),E];return U(Ce,al([0,o(Cd,U(Cc,al([0,o(Cb,L(d(ay,a[1]))),G]))),z]));case
+x=[0,o(B4,L(d(gs,a[7]))),0],y=[0,o(B5,L(d(V,a[6]))),0],z=[0,o(B8,U(B7,al([0,o(B6,L(d(V,a[5]))),y]))),x],A=0,B=a[4],C=[0,o(B$,L(d(function(a){return 0===a[0]?U(B9,L(d(la,a[1]))):U(B_,la(a[1]))},B))),A],D=a[3],E=[0,o(Ca,L(d(function(a){var
+b=[0,la(a[2]),0];return L([0,ay(a[1]),b])},D))),C],F=a[2],G=[0,o(Cb,L(d(function(a){var
+b=[0,c7(a[2]),0];return L([0,ay(a[1]),b])},F))),E];return U(Cf,al([0,o(Ce,U(Cd,al([0,o(Cc,L(d(ay,a[1]))),G]))),z]));case
 4:var
-H=[0,o(Cf,L(d(gs,a[3]))),0],I=[0,o(Ci,U(Ch,al([0,o(Cg,V(a[2])),0]))),H];return U(Cm,al([0,o(Cl,U(Ck,al([0,o(Cj,V(a[1])),0]))),I]));case
+H=[0,o(Cg,L(d(gs,a[3]))),0],I=[0,o(Cj,U(Ci,al([0,o(Ch,V(a[2])),0]))),H];return U(Cn,al([0,o(Cm,U(Cl,al([0,o(Ck,V(a[1])),0]))),I]));case
 5:var
-J=[0,o(Cn,V(a[5])),0];return U(Cp,al([0,o(Co,ld(a[1],[0,a[2],a[3]],0,a[4])),J]));case
+J=[0,o(Co,V(a[5])),0];return U(Cq,al([0,o(Cp,ld(a[1],[0,a[2],a[3]],0,a[4])),J]));case
 6:var
-j=a[1],K=0,M=j?c7(j[1]):ay(Cs);return U(Cr,al([0,o(Cq,M),K]));default:var
-N=[0,o(Ct,V(a[6])),0],O=[0,o(Cu,V(a[5])),N],P=[0,o(Cv,ld(a[2],a[3],0,a[4])),O],Q=a[1];return U(CA,al([0,o(Cz,L(d(function(a){var
-b=[0,o(Cw,V(a[2][2])),0],c=[0,o(Cx,V(a[2][1])),b];return al([0,o(Cy,ay(a[1])),c])},Q))),P]))}}function
+j=a[1],K=0,M=j?c7(j[1]):ay(Ct);return U(Cs,al([0,o(Cr,M),K]));default:var
+N=[0,o(Cu,V(a[6])),0],O=[0,o(Cv,V(a[5])),N],P=[0,o(Cw,ld(a[2],a[3],0,a[4])),O],Q=a[1];return U(CB,al([0,o(CA,L(d(function(a){var
+b=[0,o(Cx,V(a[2][2])),0],c=[0,o(Cy,V(a[2][1])),b];return al([0,o(Cz,ay(a[1])),c])},Q))),P]))}}function
 c8(a){return L(d(gq,a))}function
 gt(b,a){var
-c=[0,o(CB,ek(a)),0];return al([0,o(CC,L(d(c8,b))),c])}function
+c=[0,o(CC,ek(a)),0];return al([0,o(CD,L(d(c8,b))),c])}function
 c9(a){switch(a[0]){case
 0:return ay(a[1]);case
 1:var
 b=gt(a[2],a[3]);return U(a[1],b);case
 2:var
-c=a[1]?CD:CF;return U(CE,ay(c));case
+c=a[1]?CE:CG;return U(CF,ay(c));case
 3:var
-e=[0,c8(a[3]),0];return U(CG,L([0,gt(a[1],a[2]),e]));case
+e=[0,c8(a[3]),0];return U(CH,L([0,gt(a[1],a[2]),e]));case
 4:var
-f=[0,ek(a[4]),0],g=[0,gq(a[3]),f];return U(CH,L([0,gt(a[1],a[2]),g]));case
+f=[0,ek(a[4]),0],g=[0,gq(a[3]),f];return U(CI,L([0,gt(a[1],a[2]),g]));case
 5:var
-h=[0,ek(a[3]),0],i=[0,gq(a[2]),h];return U(CI,L([0,c9(a[1]),i]));case
+h=[0,ek(a[3]),0],i=[0,gq(a[2]),h];return U(CJ,L([0,c9(a[1]),i]));case
 6:var
-j=[0,ek(a[3]),0],k=[0,gq(a[2]),j];return U(CJ,L([0,c9(a[1]),k]));case
-7:return U(CK,c9(a[1]));case
+j=[0,ek(a[3]),0],k=[0,gq(a[2]),j];return U(CK,L([0,c9(a[1]),k]));case
+7:return U(CL,c9(a[1]));case
 8:var
-l=[0,L(d(c8,a[3])),0],m=[0,ay(a[2]),l];return U(CL,L([0,c9(a[1]),m]));case
+l=[0,L(d(c8,a[3])),0],m=[0,ay(a[2]),l];return U(CM,L([0,c9(a[1]),m]));case
 9:var
-n=a[1];return U(CM,L(d(function(a){var
+n=a[1];return U(CN,L(d(function(a){var
 b=a[1],c=b[1],d=[0,c9(a[2]),0],e=[0,ek(b[2]),d],f=[0,gq(c[2]),e];return L([0,c8(c[1]),f])},n)));case
 10:var
-o=[0,c9(a[5]),0],p=[0,c9(a[4]),o],q=[0,L(d(c8,a[3])),p],r=[0,ek(a[2]),q];return U(CN,L([0,c8(a[1]),r]));default:var
-s=[0,ek(a[3]),0],t=[0,L(d(c8,a[2])),s];return U(CO,L([0,c9(a[1]),t]))}}function
-CP(a){var
+o=[0,c9(a[5]),0],p=[0,c9(a[4]),o],q=[0,L(d(c8,a[3])),p],r=[0,ek(a[2]),q];return U(CO,L([0,c8(a[1]),r]));default:var
+s=[0,ek(a[3]),0],t=[0,L(d(c8,a[2])),s];return U(CP,L([0,c9(a[1]),t]))}}function
+CQ(a){var
 b=[0,c9(a[2]),0];return L([0,c6(a[1]),b])}function
-q9(a){if(typeof
-a==="number")return 0===a?ay(CQ):ay(CR);else
+q_(a){if(typeof
+a==="number")return 0===a?ay(CR):ay(CS);else
 switch(a[0]){case
 0:var
-b=[0,L(d(c8,a[2])),0];return U(CS,L([0,c6(a[1]),b]));case
+b=[0,L(d(c8,a[2])),0];return U(CT,L([0,c6(a[1]),b]));case
 1:var
-c=[0,c6(a[2]),0];return U(CT,L([0,c6(a[1]),c]));case
-2:return U(CU,L(d(V,a[1])));default:var
-e=[0,o(CV,gt(a[4],a[5])),0],f=[0,o(CW,L(d(V,a[3]))),e],g=[0,o(CX,L(d(V,a[2]))),f];return U(CZ,al([0,o(CY,c6(a[1])),g]))}}function
-C0(a){var
-b=a[4],h=b?[0,o(C1,c8([0,b[1],b[2]])),0]:b,e=a[3],i=e?[0,o(C2,q9(e[1])),0]:e,j=g(i,h),f=a[2],k=f?[0,o(C3,c6(f[1])),0]:f,l=g(k,j),c=a[1],m=c?[0,o(C4,L(d(CP,[0,c[1],c[2]]))),0]:c;return al(g(m,l))}function
-q_(f,a,e){var
-h=[0,o(C5,L(d(C0,e))),0];if(a)var
-b=a[1],c=[0,o(C6,gt(b[1],b[2])),0];else
+c=[0,c6(a[2]),0];return U(CU,L([0,c6(a[1]),c]));case
+2:return U(CV,L(d(V,a[1])));default:var
+e=[0,o(CW,gt(a[4],a[5])),0],f=[0,o(CX,L(d(V,a[3]))),e],g=[0,o(CY,L(d(V,a[2]))),f];return U(C0,al([0,o(CZ,c6(a[1])),g]))}}function
+C1(a){var
+b=a[4],h=b?[0,o(C2,c8([0,b[1],b[2]])),0]:b,e=a[3],i=e?[0,o(C3,q_(e[1])),0]:e,j=g(i,h),f=a[2],k=f?[0,o(C4,c6(f[1])),0]:f,l=g(k,j),c=a[1],m=c?[0,o(C5,L(d(CQ,[0,c[1],c[2]]))),0]:c;return al(g(m,l))}function
+q$(f,a,e){var
+h=[0,o(C6,L(d(C1,e))),0];if(a)var
+b=a[1],c=[0,o(C7,gt(b[1],b[2])),0];else
 var
 c=a;var
-i=g(c,h);return al([0,o(C7,k_(f)),i])}function
-q$(e,c,a,b){var
-f=[0,o(C8,q9(b)),0],h=a?[0,o(C9,L(d(V,a))),0]:a,i=g(h,f),j=[0,o(C_,L(d(V,c))),0];return al(g([0,o(C$,k_(e)),j],i))}function
-Da(a){if(typeof
-a==="number")return ay(Db);else
+i=g(c,h);return al([0,o(C8,k_(f)),i])}function
+ra(e,c,a,b){var
+f=[0,o(C9,q_(b)),0],h=a?[0,o(C_,L(d(V,a))),0]:a,i=g(h,f),j=[0,o(C$,L(d(V,c))),0];return al(g([0,o(Da,k_(e)),j],i))}function
+Db(a){if(typeof
+a==="number")return ay(Dc);else
 switch(a[0]){case
-0:return U(Dc,c6(a[1]));case
-1:return U(Dd,q_(a[1],a[2],a[3]));default:return U(De,q$(a[1],a[2],a[3],a[4]))}}function
+0:return U(Dd,c6(a[1]));case
+1:return U(De,q$(a[1],a[2],a[3]));default:return U(Df,ra(a[1],a[2],a[3],a[4]))}}function
 iq(a){var
 b=jh(jg(aI(a),function(b){return be(a,b)}));return k(function(a){var
-b=J(34===a?1:0),c=b?J(92===a?1:0):b,d=c?mR(32,a):c;return d?mR(a,126):d},b)}function
+b=J(34===a?1:0),c=b?J(92===a?1:0):b,d=c?mS(32,a):c;return d?mS(a,126):d},b)}function
 le(d){var
 a=d;for(;;)switch(a[0]){case
 8:var
@@ -7148,17 +7153,17 @@ a=a[5];continue}return c;case
 a=a[1];continue}}function
 gu(b){function
 c(f){var
-a=mQ(f),b=ae(Dt,a),c=b?ae(a,Du):b;if(c)var
+a=mR(f),b=ae(Du,a),c=b?ae(a,Dv):b;if(c)var
 d=c;else{var
-e=ae(Dv,a);if(e)return ae(a,Dw);var
+e=ae(Dw,a);if(e)return ae(a,Dx);var
 d=e}return d}var
 a=jh(jg(aI(b),function(a){return be(b,a)}));if(a){var
 d=a[2],e=c(a[1]),g=e?k(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=mQ(a),f=ae(Dx,e),h=f?ae(e,Dy):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,h=g?ae(f(d),Dz):g;if(h)return J(aM(b,DA));var
+e=mR(a),f=ae(Dy,e),h=f?ae(e,Dz):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,h=g?ae(f(d),DA):g;if(h)return J(aM(b,DB));var
 i=h}else
 var
 i=a;return i}function
@@ -7201,7 +7206,7 @@ lg(a){switch(a[0]){case
 c=fh(a[4]),d=g(el(a[3]),c),e=g(el(a[2]),d);return g(el(a[1]),e);case
 1:var
 b=a[3],f=b?el(b[1]):b,h=g(el(a[2]),f);return g(el(a[1]),h);default:return el(a[1])}}function
-DB(a){switch(a[0]){case
+DC(a){switch(a[0]){case
 0:var
 d=g(a[3],[0,a[4],0]),e=g(a[2],d),b=g(a[1],e);break;case
 1:var
@@ -7209,10 +7214,10 @@ c=a[3],f=c?c[1]:c,h=g(a[2],f),b=g(a[1],h);break;case
 2:var
 b=a[1];break;default:var
 i=g(a[4],[0,a[5],[0,a[6],0]]),j=g(a[3],i),k=g(a[2],j),b=g(a[1],k)}return x(fh,b)}function
-ra(a){return 0===a[0]?g(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-rb(a){if(0===a[0]){var
+rb(a){return 0===a[0]?g(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+rc(a){if(0===a[0]){var
 b=ch(a[2]);return g(ch(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-rc(a){switch(a[0]){case
+rd(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
@@ -7228,31 +7233,31 @@ d=[0,b[1],[0,b[2],0]]}var
 f=d}else
 var
 f=c;return g(f,h)}function
-rd(a){if(0===a[0]){var
+re(a){if(0===a[0]){var
 b=a[5],c=b?ch(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
 d=[0,a[4],0],e=g(ch(a[3]),d);return g(ch(a[2]),e)}function
-re(b,e){var
+rf(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
 f=c[1];return ag(function(a){return aM(f,a)},b)}return 0;case
 3:var
-d=re(b,a[2]);if(d){var
+d=rf(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
 gw(c,a){return k(function(a){var
-b=gv(a);return b?re(c,a):b},a)}function
-rf(a){if(typeof
+b=gv(a);return b?rf(c,a):b},a)}function
+rg(a){if(typeof
 a!=="number")switch(a[0]){case
 2:return a[1];case
 3:return g(a[2],a[3])}return 0}function
-rg(b){var
+rh(b){var
 d=g8(c(2,c(2,c(2,c(2,c(2,a))))),b);return d?g8(b,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,a))))))))))):d}function
-rh(a,b){return b?[4,rh(a,b[1]),a]:a}function
+ri(a,b){return b?[4,ri(a,b[1]),a]:a}function
 l(b){switch(b[0]){case
 0:var
-i=b[2],j=c(2,s(c(2,c(2,a)))),k=function(a){return E(j,a)},m=g1(mw(i),k,a);return[0,mK(mx(gZ(b[1]),i)),m];case
+i=b[2],j=c(2,s(c(2,c(2,a)))),k=function(a){return E(j,a)},m=g1(mx(i),k,a);return[0,mL(my(gZ(b[1]),i)),m];case
 1:var
 d=b[1];return 0===d[0]?[5,[0,a,a],[0,e,a]]:[1,d[1],d[2],d[3]];case
 2:var
@@ -7263,18 +7268,18 @@ g=l(b[2]),h=l(b[3]);switch(b[1]){case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=aY(fF(b[2]));return rh(l(b[1]),n);default:return[6,l(b[1])]}}function
+n=aY(fF(b[2]));return ri(l(b[1]),n);default:return[6,l(b[1])]}}function
 ci(a){if(0===a[0]){var
 b=l(a[1]);return[0,b,b]}var
 c=l(a[2]);return[0,l(a[1]),c]}function
 en(a){var
 b=ci(a[3]),c=ci(a[2]);return[0,ci(a[1]),c,b]}function
-DC(a){switch(a[0]){case
+DD(a){switch(a[0]){case
 0:var
 b=a[5],c=ci(a[4]),d=en(a[3]),e=en(a[2]);return[0,[0,en(a[1]),e,d,c,b]];case
 1:var
 f=y(en,a[3]),g=en(a[2]);return[1,en(a[1]),g,f];default:return[2,en(a[1])]}}function
-ri(a){if(0===a[0]){var
+rj(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=l(h(a,c));return[0,l(h(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
 g=l(a[5]),i=[0,l(a[4]),g],j=l(a[3]),k=l(a[2]);return[1,l(a[1]),k,j,i]}function
@@ -7288,10 +7293,10 @@ o=fi(f),p=fi(g);return[1,l(d),p,o]}function
 ir(b,a){if(a){var
 c=a[1],e=a[2],f=ir(g(b,[0,c,0]),e),h=d(function(a){return[0,c,a]},b);return g(aN(function(c){var
 a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:m(b[1],a[1]):0:0===a[0]?0:cp(b[1],a[1]);return J(d)},h),f)}return a}function
-DD(b){if(b[1])return 0;var
+DE(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,l(a[1])],0];return 0}function
-rj(N,M,b){switch(b[1]){case
+rk(N,M,b){switch(b[1]){case
 0:var
 g=b[4];if(typeof
 g!=="number"&&0===g[0])return[0,[1,l(g[1])],0];return 0;case
@@ -7363,7 +7368,7 @@ $=x[2],aa=x[1],c=function(a){var
 b=l(_),c=l($);return[12,a,l(aa),c,b]}}if(L)return 0;break;case
 11:var
 G=typeof
-b[4]==="number"?1:0,ab=G?DE:G;return ab;case
+b[4]==="number"?1:0,ab=G?DF:G;return ab;case
 12:var
 y=b[4];if(typeof
 y!=="number"&&1===y[0]){var
@@ -7371,7 +7376,7 @@ z=b[3];if(z){var
 H=z[1];if(0===H[0]){var
 ac=l(y[1]);return[0,[14,l(H[1]),ac],0]}return 0}return z}return 0;default:return 0}var
 B=b[2],P=B?[0,aY(B[1]),0]:ax(0,N);return d(c,P)}function
-DF(c,a){switch(a[1]){case
+DG(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
 l!=="number"&&2!==l[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -7415,7 +7420,7 @@ z!=="number"&&0===z[0])return a[2]?0:a[3]?0:1;return 0;case
 N=0,A=a[4];if(typeof
 A==="number"||!(1===A[0]))N=1;else{var
 h=a[3];if(!h)return h;if(0!==h[1][0])return 0;var
-B=m(c,DH),O=0;if(B){var
+B=m(c,DI),O=0;if(B){var
 C=a[2];if(C){var
 b=C[1];O=1}else
 var
@@ -7441,16 +7446,16 @@ I=H;return I;case
 12:var
 J=a[4];if(typeof
 J!=="number"&&1===J[0]){if(a[2])return 0;var
-k=a[3];return k?0===k[1][0]?m(c,DI):0:k}return 0;default:return 0}var
-p=ae(DG,b);return p?ae(b,c):p}function
+k=a[3];return k?0===k[1][0]?m(c,DJ):0:k}return 0;default:return 0}var
+p=ae(DH,b);return p?ae(b,c):p}function
 is(c,k,j,b){var
-l=f(c),e=x(function(a){return rj(l,j,a)},b),a=x(DD,b),h=a?[0,a[1],a[2]]:DJ,i=g(h,e),m=ri(k);return[0,d(DC,c),m,i]}function
-rk(b){if(b[1])return 0;var
+l=f(c),e=x(function(a){return rk(l,j,a)},b),a=x(DE,b),h=a?[0,a[1],a[2]]:DK,i=g(h,e),m=rj(k);return[0,d(DD,c),m,i]}function
+rl(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,l(a[1])],0];return 0}function
-rl(c){function
+rm(c){function
 b(b){return q(b,d(l,c),[0,e,a])}var
-f=b(DK),g=b(DL);return[0,b(0),g,f]}function
+f=b(DL),g=b(DM);return[0,b(0),g,f]}function
 it($,G,_,b){switch(b[1]){case
 0:var
 h=b[4];if(typeof
@@ -7537,14 +7542,14 @@ A==="number"||!(1===A[0]))W=1;else{var
 B=b[3],av=A[1];if(!B)return B;var
 O=B[1];if(1!==O[0])return 0;var
 aw=O[1],c=function(a){var
-b=l(av);return[13,a,0,rl(aw),b]}}if(W)return 0;break;case
+b=l(av);return[13,a,0,rm(aw),b]}}if(W)return 0;break;case
 15:var
 C=b[4],Y=0;if(typeof
 C==="number"||!(1===C[0]))Y=1;else{var
 D=b[3],ay=C[1];if(!D)return D;var
 P=D[1];if(1!==P[0])return 0;var
 az=P[1],c=function(a){var
-b=l(ay);return[13,a,1,rl(az),b]}}if(Y)return 0;break;case
+b=l(ay);return[13,a,1,rm(az),b]}}if(Y)return 0;break;case
 16:var
 E=b[4],Z=0;if(typeof
 E==="number"||!(1===E[0]))Z=1;else{var
@@ -7554,7 +7559,7 @@ aB=Q[1],c=function(a){var
 b=l(aA);return[17,a,d(l,aB),b]}}if(Z)return 0;break;default:return 0}var
 H=b[2],ab=H?[0,aY(H[1]),0]:ax(0,G);return d(c,ab)}function
 fj(e,d,c,b){var
-f=x(function(a){return it(e,d,c,a)},b),a=x(rk,b),h=a?[0,a[1],a[2]]:DM;return g(h,f)}function
+f=x(function(a){return it(e,d,c,a)},b),a=x(rl,b),h=a?[0,a[1],a[2]]:DN;return g(h,f)}function
 c_(a){return 11===a[1]?1:0}function
 cF(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
@@ -7568,7 +7573,7 @@ e=1;l=1}if(!l)var
 e=0;var
 f=cp(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=ae(DN,h);return i?ae(h,m):i}var
+h=g[1],i=ae(DO,h);return i?ae(h,m):i}var
 j=1}else
 var
 j=f;return j;case
@@ -7577,7 +7582,7 @@ k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
 aZ(s,b,a){var
 d=a[2];if(d)var
-e=d[1],g=ae(DO,e),t=g?ae(e,b):g,c=t;else
+e=d[1],g=ae(DP,e),t=g?ae(e,b):g,c=t;else
 var
 c=1;var
 h=a[1];if(!(9<=h))switch(h){case
@@ -7602,9 +7607,9 @@ q!=="number"&&1===q[0]){var
 r=a[3];return r?0===r[1][0]?c?m(b,s):c:cF(0,b,a):cF(0,b,a)}return cF(0,b,a)}return cF(0,b,a)}function
 aP(c,b,a){return 11===a[1]?typeof
 a[4]==="number"?a[2]?aZ(c,b,a):a[3]?aZ(c,b,a):1:aZ(c,b,a):aZ(c,b,a)}function
-rm(g,b,c,a){var
+rn(g,b,c,a){var
 h=a[2];if(h)var
-i=h[1],j=ae(DQ,i),G=j?ae(i,c):j,d=G;else
+i=h[1],j=ae(DR,i),G=j?ae(i,c):j,d=G;else
 var
 d=1;switch(a[1]){case
 1:if(a[3])return aZ(as(b),c,a);if(d){var
@@ -7668,7 +7673,7 @@ b=ci(a[2]);return[0,a[1],b]},h),p,o],n,k,j]}function
 li(c){function
 b(d){var
 b=[0,e,a];return q(d,c,[0,b,b])}var
-d=b(DR),f=b(DS);return[0,b(0),f,d]}function
+d=b(DS),f=b(DT);return[0,b(0),f,d]}function
 eo(a){function
 b(a){var
 b=l(a[2]);return[0,l(a[1]),b]}switch(a[0]){case
@@ -7677,16 +7682,16 @@ b=l(a[2]);return[0,l(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,l(a[1])];default:var
 e=l(a[2]);return[3,l(a[1]),e]}}function
-rn(a){if(0===a[0]){var
+ro(a){if(0===a[0]){var
 b=M(a[1],a[2]);return[0,li(d(function(a){var
-b=l(a[2]);return[0,l(a[1]),b]},b))]}return ri([1,a[1],a[2],a[3],a[4],a[5]])}function
-ro(j,b,i,h,g,e,a){function
+b=l(a[2]);return[0,l(a[1]),b]},b))]}return rj([1,a[1],a[2],a[3],a[4],a[5]])}function
+rp(j,b,i,h,g,e,a){function
 c(a){return li(d(ci,a))}var
-k=ag(c_,a),m=fj(0,f(b),e,a),n=eo(g),o=rn(h),p=l(i);return[0,j,d(function(a){var
+k=ag(c_,a),m=fj(0,f(b),e,a),n=eo(g),o=ro(h),p=l(i);return[0,j,d(function(a){var
 b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,k]}function
 ep(a){return ag(function(a){return 3===a[0]?1:0},a)}function
 lj(j,b,g,i,h,c){var
-k=ag(c_,c),m=f(b),n=fj(ep(b),m,0,c),o=y(eo,h),p=rn(i),q=g?l(g[1]):[0,a,a];return[0,j,d(function(b){function
+k=ag(c_,c),m=f(b),n=fj(ep(b),m,0,c),o=y(eo,h),p=ro(i),q=g?l(g[1]):[0,a,a];return[0,j,d(function(b){function
 c(a){return li(d(ci,a))}switch(b[0]){case
 0:var
 k=b[5],l=ci(b[4]),m=c(b[3]),n=c(b[2]);return[0,[0,[0,c(b[1]),n,m,l,k]]];case
@@ -7709,9 +7714,9 @@ c=a[5],d=a[4],e=b(a[3]),f=b(a[2]);return[0,b(a[1]),f,e,d,c];case
 g=y(b,a[3]),h=b(a[2]);return[1,b(a[1]),h,g];default:return[2,b(a[1])]}}function
 ll(a){if(0===a[0]){var
 b=a[2],c=a[1];return[0,[0,c[1],[0,c[2],[0,c[3],0]]],[0,b[1],[0,b[2],[0,b[3],0]]]]}return[1,a[1],a[2],a[3],a[4],a[5]]}function
-rp(a){return a[1]?0:1}function
-rq(l){var
-b=aN(rp,l);if(b){var
+rq(a){return a[1]?0:1}function
+rr(l){var
+b=aN(rq,l);if(b){var
 d=b[1];if(d[2])return 0;if(d[3])return 0;var
 c=d[4],a=b[2];if(typeof
 c!=="number")switch(c[0]){case
@@ -7732,8 +7737,8 @@ k=a;return k}var
 i=0}else
 var
 i=b;return i}function
-rr(a){var
-c=rp(a);if(c)return c;if(1===a[1]){var
+rs(a){var
+c=rq(a);if(c)return c;if(1===a[1]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return 1;return 0}return 0}function
 iu(i,h,b){function
@@ -7747,21 +7752,21 @@ l=g(k);return a(h,e(g(j),l))}function
 iw(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,ln,a(ln,d)],rs),g=a(c,[5,[3,0,ln,b(rs,b(c,c))]]);return[2,b(iu(f,e,d),g)]}function
+c=a([3,1,ln,a(ln,d)],rt),g=a(c,[5,[3,0,ln,b(rt,b(c,c))]]);return[2,b(iu(f,e,d),g)]}function
 lo(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
-h=f(ix,b(ix,a)),d=e?h:b(f(a,ix),rt),i=b(d,[5,[3,0,ix,c(rt,c(d,d))]]);return c(iu(e,g,a),i)}function
-ru(c,g,b,a){function
+h=f(ix,b(ix,a)),d=e?h:b(f(a,ix),ru),i=b(d,[5,[3,0,ix,c(ru,c(d,d))]]);return c(iu(e,g,a),i)}function
+rv(c,g,b,a){function
 e(b,a){return d(function(c){var
-d=m(b,c)?a:DT;return[0,d]},DV)}return d(function(d){var
+d=m(b,c)?a:DU;return[0,d]},DW)}return d(function(d){var
 j=[0,iu(c,b,a)],i=1,k=e(d,[2,g]);function
 f(b,a){return[3,1,b,a]}var
-h=iu(c,b,a),l=e(d,f(f(iw(c,b,a),g),h));return[0,e(d,DU),l,k,j,i]},DW)}function
-rv(c,b,a){var
+h=iu(c,b,a),l=e(d,f(f(iw(c,b,a),g),h));return[0,e(d,DV),l,k,j,i]},DX)}function
+rw(c,b,a){var
 d=[0,lo(c,b,a),0],e=[0,lo(c,b,a),d],f=[0,lo(c,b,a),e],g=[0,iw(c,b,a),0],h=[0,iw(c,b,a),g];return[0,[0,iw(c,b,a),h],f]}function
-rw(o,d,b){if(d)if(b){var
+rx(o,d,b){if(d)if(b){var
 g=d[1],h=b[1],j=cV(l(g[2][1]));if(j){var
 k=j[1],m=cV(l(g[2][2]));if(m)var
 p=m[1],n=function(b){function
@@ -7771,7 +7776,7 @@ var
 f=[0,[0,e,a],[0,e,a]]}else
 var
 f=[0,[0,e,a],[0,e,a]];var
-r=rw([0,o],d[2],b[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+r=rx([0,o],d[2],b[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 i=b;else
 var
@@ -7780,13 +7785,13 @@ aD(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=mM(function(a){return aM(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+e=c[1],d=mN(function(a){return aM(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
 2:return[2,aD(b,a[1])];case
 3:var
 f=aD(b,a[3]),g=aD(b,a[2]);return[3,a[1],g,f];case
 4:var
 h=a[2];return[4,aD(b,a[1]),h];default:return[5,aD(b,a[1])]}}function
-rx(b,a){if(0===a[0])return[0,aD(b,a[1])];var
+ry(b,a){if(0===a[0])return[0,aD(b,a[1])];var
 c=aD(b,a[2]);return[1,aD(b,a[1]),c]}function
 lp(b,a){var
 c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]}function
@@ -7811,14 +7816,14 @@ d=b[1],h=b[2];if(f)return[0,d,lr(g,f[1],h)];var
 j=[0,d[2]],k=g?a:e,l=d[1],i=[0,[0,G(E(c(2,a),l),k),j],h]}else
 var
 i=b;return i}function
-DX(a){if(typeof
-a!=="number"&&1===a[0])return 1;return 0}function
 DY(a){if(typeof
+a!=="number"&&1===a[0])return 1;return 0}function
+DZ(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
 iy(d,b){if(0===b[0]){var
 f=[0,a,c(2,a)],g=iy(d,b[3]);return bb(dR(iy(d,b[2]),g),f)}return h(d,b[1])?[0,a,a]:[0,e,a]}function
-ry(a){return 0===a[0]?e4(a[1][4]):0}function
-rz(a){switch(a[0]){case
+rz(a){return 0===a[0]?e4(a[1][4]):0}function
+rA(a){switch(a[0]){case
 0:var
 b=a[1],c=bk(b[3]);return g(bk(b[2]),c);case
 1:var
@@ -7828,35 +7833,35 @@ iz(a){switch(a[0]){case
 1:var
 b=a[3];return b?bY(bk(b[1])):e;default:return bY(bk(a[1]))}}function
 iA(c){var
-b=x(ry,c),d=b?[0,b[1],b[2]]:x(rz,c);return G(a,bY(d))}function
-rA(d,c){if(d){if(c){var
-a=c[1],e=d[1],f=rA(d[2],c[2]);if(f){var
+b=x(rz,c),d=b?[0,b[1],b[2]]:x(rA,c);return G(a,bY(d))}function
+rB(d,c){if(d){if(c){var
+a=c[1],e=d[1],f=rB(d[2],c[2]);if(f){var
 i=f[1],j=i[1],g=j[2],k=j[1],l=i[2];if(45===a)var
-b=DZ;else
-if(43===a)var
 b=D0;else
-if(48===a)var
+if(43===a)var
 b=D1;else
-if(60===a)var
+if(48===a)var
 b=D2;else
-if(62===a)var
+if(60===a)var
 b=D3;else
+if(62===a)var
+b=D4;else
 var
-h=61===a?1:0,q=h?D4:h,b=q;if(b){var
+h=61===a?1:0,q=h?D5:h,b=q;if(b){var
 m=b[1],r=m[2]?[0,e,g]:g;return[0,[0,[0,[0,[0,e,m[1]],k],r],l]]}var
 n=49===a?1:0,s=n?[0,[0,[0,k,g],[0,e,l]]]:n,o=s}else
 var
 o=f;var
 p=o}else
 var
-p=c;return p}return c?0:D5}function
+p=c;return p}return c?0:D6}function
 c$(b,c,a){switch(a[0]){case
 0:var
-g=a[1];if(aM(g,D6))return D7;if(aM(g,D8))return D9;if(aM(g,D_))return D$;if(aM(g,Ea))return Eb;if(aM(g,Ec))return Ed;var
-u=aM(g,Ee),P=u?Ef:u;return P;case
+g=a[1];if(aM(g,D7))return D8;if(aM(g,D9))return D_;if(aM(g,D$))return Ea;if(aM(g,Eb))return Ec;if(aM(g,Ed))return Ee;var
+u=aM(g,Ef),P=u?Eg:u;return P;case
 1:var
-h=a[3],i=a[2],j=a[1];if(aM(j,Eg))return[0,[0,h,i]];if(aM(j,Eh))return[0,[1,h,i]];if(aM(j,Ei))return[0,[2,h,i]];var
-v=aM(j,Ej),Q=v?[0,[8,h,i]]:v;return Q;case
+h=a[3],i=a[2],j=a[1];if(aM(j,Eh))return[0,[0,h,i]];if(aM(j,Ei))return[0,[1,h,i]];if(aM(j,Ej))return[0,[2,h,i]];var
+v=aM(j,Ek),Q=v?[0,[8,h,i]]:v;return Q;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3],a[4]]];case
@@ -7868,7 +7873,7 @@ o=c$(b,c,a[1]),S=o?[0,[7,o[1],a[2],a[3]]]:o;return S;case
 T=c$(b,c,a[1]);return y(function(a){return[6,a]},T);case
 8:if(b){var
 w=a[3],x=a[2],p=c$(b,c,a[1]);if(p){var
-z=p[1],q=rA(b,jh(jg(aI(x),function(a){return be(x,a)})));if(q){var
+z=p[1],q=rB(b,jh(jg(aI(x),function(a){return be(x,a)})));if(q){var
 A=q[1],B=A[1],C=B[2],D=B[1],E=A[2];if(E)return[0,[11,c,E,[10,z,D,C,w]]];var
 F=[0,[10,z,D,C,w]]}else
 var
@@ -7884,7 +7889,7 @@ K=function(a){if(a){var
 f=a[1],d=c$(b,c,f[2]);if(d)var
 e=K(a[2]),h=e?[0,[0,[0,f[1],d[1]],e[1]]]:e,g=h;else
 var
-g=d;return g}return Ek},U=K(a[1]);return y(function(a){return[12,a]},U);case
+g=d;return g}return El},U=K(a[1]);return y(function(a){return[12,a]},U);case
 10:var
 L=a[3],t=k(function(a){var
 c=f(b);return m(f(a),c)},L),l=t?[0,d(function(a){var
@@ -7897,14 +7902,14 @@ O=N}else
 var
 O=l;return O;default:var
 W=a[3],X=a[2],Y=c$(b,c,a[1]);return y(function(a){return[14,a,W,X]},Y)}}function
-rB(e,d,a){if(a){var
+rC(e,d,a){if(a){var
 f=a[1],b=c$(e,d,f[2]);if(b)var
-c=rB(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
+c=rC(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
 var
-g=b;return g}return El}function
+g=b;return g}return Em}function
 eq(b,g,f,e,d,a){if(d)if(a){var
 c=a[1];if(c[3])return 0;if(c[4])return 0;var
-n=c[2],o=a[2],p=d[1],h=rB(f,e,c[1]);if(h){var
+n=c[2],o=a[2],p=d[1],h=rC(f,e,c[1]);if(h){var
 i=h[1];if(n){var
 j=eq(b,g,f,e,p,o);if(j){var
 q=j[1],k=eq(b,g,f,e,p,q[2]);if(k){var
@@ -7927,9 +7932,9 @@ ls(i,h,g,e,d,a){if(d){if(a){var
 b=eq(i,h,g,e,f(a),a);if(b)var
 j=b[1],c=ls(i,h,g,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
 var
-k=b;return k}return Em}return a?0:En}function
-rC(a){if(typeof
-a==="number")return 0===a?Eo:Ep;else
+k=b;return k}return En}return a?0:Eo}function
+rD(a){if(typeof
+a==="number")return 0===a?Ep:Eq;else
 switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return[0,[1,a[1],a[2]]];default:return 0}}function
@@ -7938,12 +7943,12 @@ b=a[1];if(b[1])return 0;var
 j=b[4],c=b[3],k=b[2],l=a[2],m=d[1];if(k){if(c)return 0;if(j)return 0;var
 f=k[1],g=lt(e,m,l);if(g){var
 n=g[1],o=n[1],h=lt(e,m,n[2]);if(h){var
-p=h[1],q=p[2],r=p[1];if(aF(f,Eq))return[0,[0,[1,f,o,r],q]];var
-t=F(e,dP(f,Er));return y(function(a){return[0,[2,a,o,r],q]},t)}var
+p=h[1],q=p[2],r=p[1];if(aF(f,Er))return[0,[0,[1,f,o,r],q]];var
+t=F(e,dP(f,Es));return y(function(a){return[0,[2,a,o,r],q]},t)}var
 s=h}else
 var
 s=g;return s}if(c){var
-u=rC(c[1]);return y(function(a){return[0,[0,j,a],l]},u)}var
+u=rD(c[1]);return y(function(a){return[0,[0,j,a],l]},u)}var
 i=c}else
 var
 i=a;else
@@ -7952,7 +7957,7 @@ i=d;return i}function
 dJ(b,a){return 0===b[0]?[0,l(b[1]),a]:a?[0,a[1],a[2]]:[0,l(b[1]),0]}function
 er(a,e){var
 b=dJ(a[1],e),c=dJ(a[2],b[2]),d=dJ(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-rD(d,c){if(d){var
+rE(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
 e=er(a[1],c),f=er(a[2],e[2]),g=er(a[3],f[2]),h=dJ(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
@@ -7962,10 +7967,10 @@ o=er(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
 p=er(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=rD(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+q=rE(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
 gx(t,g){var
 u=t[3];if(typeof
-g==="number")return 0===g?Ev:Ew;else
+g==="number")return 0===g?Ew:Ex;else
 switch(g[0]){case
 0:var
 v=g[2],h=g[1],B=F(u,h);if(B){var
@@ -7981,9 +7986,9 @@ var
 b=v;var
 ac=F(u,h),ad=t[1],w=y(function(b){if(typeof
 b!=="number")switch(b[0]){case
-5:return Et;case
+5:return Eu;case
 12:var
-a=F(ad,b[1]);if(a){if(2===a[1][0])return Eu;var
+a=F(ad,b[1]);if(a){if(2===a[1][0])return Ev;var
 c=0}else
 var
 c=a;return c;case
@@ -7992,7 +7997,7 @@ c=a;return c;case
 4:case
 6:case
 7:case
-11:return 0}return Es},ac);if(w){var
+11:return 0}return Et},ac);if(w){var
 G=w[1];if(G){var
 H=G[1];if(H){if(H[1])return 0;if(b){var
 i=b[1];if(i){var
@@ -8055,9 +8060,9 @@ bv(a,b){if(a){var
 c=dJ(a[1],b),d=bv(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
 aS(c){function
 b(b){return q(b,c,[0,e,a])}var
-d=b(Ex),f=b(Ey);return[0,b(0),f,d]}function
-rE(a,b){if(a){var
-c=a[1],d=bv(c[1],b),e=bv(c[2],d[2]),f=rE(a[2],e[2]),g=f[2],h=f[1],i=aS(e[1]);return[0,[0,[0,aS(d[1]),i],h],g]}return[0,0,b]}function
+d=b(Ey),f=b(Ez);return[0,b(0),f,d]}function
+rF(a,b){if(a){var
+c=a[1],d=bv(c[1],b),e=bv(c[2],d[2]),f=rF(a[2],e[2]),g=f[2],h=f[1],i=aS(e[1]);return[0,[0,[0,aS(d[1]),i],h],g]}return[0,0,b]}function
 lu(f,d){if(f){var
 b=f[1];switch(b[0]){case
 0:var
@@ -8071,8 +8076,8 @@ I=aS(p),c=[0,[0,[1,aS(m),I,0]],o];break;case
 r=bv(b[1],d),J=r[2],c=[0,[0,[2,aS(r[1])]],J];break;default:var
 s=b[1],t=bv(s,d),u=bv(b[2],t[2]),v=bv(b[3],u[2]),w=bv(b[4],v[2]),x=dJ(b[5],w[2]),y=dJ(b[6],x[2]),K=s?aS(t[1]):[0,[0,e,a],[0,e,a],[0,a,a]],L=y[2],M=b[7],N=y[1],O=x[1],P=aS(w[1]),Q=aS(v[1]),c=[0,[1,[0,K,aS(u[1]),Q,P,O,N,M]],L]}var
 z=lu(f[2],c[2]);return[0,[0,c[1],z[1]],z[2]]}return[0,0,d]}function
-dK(a){return ni(j,a)}function
-Ez(b){if(typeof
+dK(a){return nj(j,a)}function
+EA(b){if(typeof
 b==="number")return 1;else
 switch(b[0]){case
 5:return i(j,1,[3,b[1],[0,a,a]]);case
@@ -8105,7 +8110,7 @@ B=[0,b[2],b[1]],C=1;return k(function(a){return i(j,C,a)},B);case
 11:var
 m=b[2],n=i(j,1,m);return n?i(j,0,[3,[0,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a))))))))),a],m]):n;case
 13:var
-o=b[4],p=pZ(b[3]),q=p?i(j,1,o):p;return q?i(j,0,[3,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a],o]):q;case
+o=b[4],p=p0(b[3]),q=p?i(j,1,o):p;return q?i(j,0,[3,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a],o]):q;case
 14:return i(j,0,b[3]);case
 15:var
 r=i(j,0,b[2]),t=r?i(j,0,b[3]):r;return t?i(j,1,b[4]):t;case
@@ -8137,13 +8142,13 @@ b=a[2],c=a[1];if(!dW(l(c))&&!dW(l(b))){var
 e=l(c);return i(j,1,[3,l(b),e])}var
 d=l(b);return bI(j,l(c),d)}function
 es(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-rF(a){switch(a[0]){case
+rG(a){switch(a[0]){case
 0:var
 c=[0,a[4],0],d=g(es(a[3]),c),e=g(es(a[2]),d);return g(es(a[1]),e);case
 1:var
 b=a[3],f=b?es(b[1]):b,h=g(es(a[2]),f);return g(es(a[1]),h);default:return es(a[1])}}function
-rG(s,a,m){if(ag(function(a){return 9===a[1]?1:0},m)){var
-b=ae(f(a),EC),c=b?k(function(a){if(0===a[0]){var
+rH(s,a,m){if(ag(function(a){return 9===a[1]?1:0},m)){var
+b=ae(f(a),ED),c=b?k(function(a){if(0===a[0]){var
 d=a[5],e=i(j,1,l(a[2])),f=e?i(j,0,l(a[3])):e,m=f?i(j,0,l(a[4])):f,c=0;if(m)if(d)var
 p=ch(d[1]),b=k(function(a){return dK(l(a))},p);else{var
 n=1;c=1}else{var
@@ -8156,31 +8161,31 @@ b=o}return b?h(s,a):b},a):b;if(c)var
 d=ir(0,a),n=d?1:d,e=n;else
 var
 e=c;return e}return a?0:1}function
-rH(a){return a?ED:EE}function
+rI(a){return a?EE:EF}function
 iC(a){switch(a){case
-0:return EF;case
-1:return EG;default:return 0}}function
+0:return EG;case
+1:return EH;default:return 0}}function
 dL(b){var
 f=b[1],d=i(j,1,[2,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a],f]),e=d?bI(j,b[1],b[2]):d;if(e){var
 g=b[2];return i(j,1,[3,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a],g])}return e}function
 fk(b){var
 d=bI(j,[0,e,a],b);return d?i(j,1,[3,[0,c(2,c(2,s(c(2,c(2,s(c(2,s(c(2,c(2,a)))))))))),a],b]):d}function
-rI(c,b,a){if(0===a[0]){var
+rJ(c,b,a){if(0===a[0]){var
 d=a[2],e=a[1],g=m(f(e),c),h=g?m(f(d),c):g;if(h){var
 o=M(e,d);return k(function(a){var
 b=l(a[2]);return bI(j,l(a[1]),b)},o)}return h}var
 n=b?i(j,1,l(a[3])):b;if(n){var
 p=l(a[5]);return bI(j,l(a[4]),p)}return n}function
-rJ(a,e,F,E,t,s,g){function
+rK(a,e,F,E,t,s,g){function
 u(b){var
-d=rH(a),c=m(f(b),d);return c?k(gy,b):c}var
+d=rI(a),c=m(f(b),d);return c?k(gy,b):c}var
 v=k(function(a){var
 b=u(a[1]);return b?u(a[2]):b},e);if(v)var
 G=f(e),o=ae(bM(a),G);else
 var
 o=v;var
-w=o?ae(f(e),EH):o,x=w?i(j,1,l(F)):w;if(x)var
-H=1===a?1:0,p=rI(iC(a),H,E);else
+w=o?ae(f(e),EI):o,x=w?i(j,1,l(F)):w;if(x)var
+H=1===a?1:0,p=rJ(iC(a),H,E);else
 var
 p=x;if(p)if(a){var
 d=eo(t);switch(d[0]){case
@@ -8196,16 +8201,16 @@ var
 D=eo(t),J=0===D[0]?dL(D[1]):0,n=J;else
 var
 n=p;if(n)var
-I=f(e),q=rG(function(a){if(0===a[0]){var
-b=a[1],c=ae(EB,b),d=c?ae(b,I):c;if(d){if(a[5])return 0;var
+I=f(e),q=rH(function(a){if(0===a[0]){var
+b=a[1],c=ae(EC,b),d=c?ae(b,I):c;if(d){if(a[5])return 0;var
 e=1}else
 var
 e=d;return e}return 1},s,g);else
 var
 q=n;if(q)var
-b=f(e),c=bM(a),y=rH(a),r=k(function(a){var
+b=f(e),c=bM(a),y=rI(a),r=k(function(a){var
 e=a[2];if(e)var
-g=e[1],h=ae(DP,g),w=h?ae(g,b):h,d=w;else
+g=e[1],h=ae(DQ,g),w=h?ae(g,b):h,d=w;else
 var
 d=1;switch(a[1]){case
 9:var
@@ -8245,7 +8250,7 @@ iD(a,b,e,T,p,n){var
 q=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 c(a){var
-b=q?EI:EJ;return m(f(a),b)}var
+b=q?EJ:EK;return m(f(a),b)}var
 h=ep(b),w=k(function(b){switch(b[0]){case
 0:var
 f=J(h),g=f?c(b[1]):f,i=g?c(b[2]):g;return i?c(b[3]):i;case
@@ -8268,12 +8273,12 @@ r=b[1],s=q?r?0:1:c(r),t=s?c(b[2]):s,u=t?c(b[3]):t;return u?c(b[4]):u}},b);if(w)v
 U=f(b),r=ae(as(a),U);else
 var
 r=w;var
-z=r?ae(f(b),EK):r,A=z?k(gy,x(lw,b)):z;if(A){var
+z=r?ae(f(b),EL):r,A=z?k(gy,x(lw,b)):z;if(A){var
 S=0;if(typeof
 a==="number"&&!a){var
 B=1;S=1}if(!S)var
 B=0;var
-V=q?EL:EM,s=rI(V,B,T)}else
+V=q?EM:EN,s=rJ(V,B,T)}else
 var
 s=A;if(s)if(typeof
 a==="number")if(e)var
@@ -8313,7 +8318,7 @@ d=0}else
 var
 d=s;var
 C=d?k(function(c){var
-d=rm(h,a,f(b),c);if(d)var
+d=rn(h,a,f(b),c);if(d)var
 e=d;else{var
 g=c_(c);if(g)return aP(0,0,c);var
 e=g}return e},n):d,D=C?k(function(a){var
@@ -8330,25 +8335,25 @@ var
 i=b;return k(function(a){switch(a[0]){case
 0:case
 3:return 1;default:return 0}},i)}return 1},n):C,E=D?iB(n):D;return E?k(lv,fj(h,f(b),0,n)):E}function
-EN(a){switch(a[0]){case
+EO(a){switch(a[0]){case
 0:return hQ(a[1][1]);case
 1:var
 b=a[3];return b?hQ(b[1]):1;default:return hQ(a[1])}}function
 iE(a,l,b,d){var
-e=rG(function(g){if(0===g[0]){var
-c=g[1],d=ae(EA,c);if(d){var
+e=rH(function(g){if(0===g[0]){var
+c=g[1],d=ae(EB,c);if(d){var
 b=F(a,aY(c));if(b){if(2===b[1][0])return 0;var
 e=1}else
 var
 e=b;var
 f=e}else
 var
-f=d;return f}return 1},l,b),g=e?k(EN,d[1]):e,h=g?ae(EO,f(a)):g;if(h)var
-m=f(a),c=k(function(a){return DF(m,a)},b);else
+f=d;return f}return 1},l,b),g=e?k(EO,d[1]):e,h=g?ae(EP,f(a)):g;if(h)var
+m=f(a),c=k(function(a){return DG(m,a)},b);else
 var
 c=h;var
-i=c?iB(b):c,j=i?k(gy,x(rF,a)):i;return j?k(Ez,d[3]):j}function
-rK(n,l,a,j,i,b){var
+i=c?iB(b):c,j=i?k(gy,x(rG,a)):i;return j?k(EA,d[3]):j}function
+rL(n,l,a,j,i,b){var
 c=f(n),o=f(i),d=m(f(j),o),e=d?k(function(b){if(12===b[1]){var
 o=0,e=b[4];if(typeof
 e!=="number"&&1===e[0]){if(b[2])var
@@ -8369,16 +8374,16 @@ b=F(a,c);return b?0===b[1][0]?0:1:b},p);case
 i=1}else
 var
 i=d;return i},b):d,g=e?iB(b):e,h=g?k(function(a){return gy(a[2])},l):g;return h?k(lv,fj(0,f(a),0,b)):h}function
-rL(a){if(a){var
+rM(a){if(a){var
 b=a[1];if(c_(b))return 0;var
-c=[0,b,rL(a[2])]}else
+c=[0,b,rM(a[2])]}else
 var
 c=a;return c}function
 et(h,g,e,c,b){var
-i=rL(b),k=x(function(a){return it(h,e,c,a)},i),l=mO(d(function(a){return f6(j,g,a)},k)),a=x(rk,b),m=a?[0,a[1],a[2]]:EP;return P(f(m),l)}function
-lx(a){return 2<=a?EQ:ER}function
+i=rM(b),k=x(function(a){return it(h,e,c,a)},i),l=mP(d(function(a){return f6(j,g,a)},k)),a=x(rl,b),m=a?[0,a[1],a[2]]:EQ;return P(f(m),l)}function
+lx(a){return 2<=a?ER:ES}function
 ly(n,l,k,j,f,i){var
-g=et(n,l,k,j,f),c=rC(i);if(c){var
+g=et(n,l,k,j,f),c=rD(i);if(c){var
 a=c[1],e=0;if(typeof
 a==="number")var
 h=[0,a];else
@@ -8391,35 +8396,35 @@ gz(b,a){var
 c=f(aN(function(a){return 0===a[0]?0:1},b));return m(f(a),c)}function
 iF(a){var
 b=M(ax(0,f(a)),a);return d(ap,aN(function(a){return j1(a[2])},b))}function
-rM(a){var
+rN(a){var
 b=a[1],c=d(iz,a[1]);return hI(iA(a[1]),c,b)}function
-lz(a){return iF(rM(a))}function
-rN(b,a){if(a){var
-c=a[1],e=a[2],f=rN(P(b,c[1]),e),h=c[2];return g(d(function(a){return ax(P(b,a),ES)},h),f)}return a}function
-rO(d,a){function
+lz(a){return iF(rN(a))}function
+rO(b,a){if(a){var
+c=a[1],e=a[2],f=rO(P(b,c[1]),e),h=c[2];return g(d(function(a){return ax(P(b,a),ET)},h),f)}return a}function
+rP(d,a){function
 b(f){var
 a=F(d,f);if(a){var
-b=ow(a[1]);if(b)return H(b[1],e);var
+b=ox(a[1]);if(b)return H(b[1],e);var
 c=1}else
 var
 c=a;return c}var
-c=rN(0,a);return aN(function(a){return k(b,a)},c)}function
-rP(a){switch(a[0]){case
-0:return ET;case
-1:return a[3]?EU:EV;default:return EW}}function
-EX(a){return 0===a[0]?rP(a[1]):EY}function
+c=rO(0,a);return aN(function(a){return k(b,a)},c)}function
+rQ(a){switch(a[0]){case
+0:return EU;case
+1:return a[3]?EV:EW;default:return EX}}function
+EY(a){return 0===a[0]?rQ(a[1]):EZ}function
 iG(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,e,0]}function
 lA(aA,Z,az,Y,X,b,ay,W){var
-a=is(Z,az,Y,X),aB=f(W),aD=d(rP,a[1]),aF=rO(rM(a),aD),aG=aA?0:lz(a),B=eq(EZ,lz(a),aG,aF,aB,W);if(B){var
+a=is(Z,az,Y,X),aB=f(W),aD=d(rQ,a[1]),aF=rP(rN(a),aD),aG=aA?0:lz(a),B=eq(E0,lz(a),aG,aF,aB,W);if(B){var
 _=B[1];if(_[2])return 0;var
 $=iE(Z,Y,X,a);if($){var
-aH=_[1],C=d(iz,a[1]),c=iA(a[1]),aI=iG(ay),V=oW(j,a);if(V){var
+aH=_[1],C=d(iz,a[1]),c=iA(a[1]),aI=iG(ay),V=oX(j,a);if(V){var
 m=hI(c,C,a[1]),i=jY(c,C,a[1],0),ac=f(a[3]),ae=P(f(m),ac),K=[0,f(m),ae],af=a[3],E=ag(function(a){if(typeof
 a!=="number"&&14===a[0])return 1;return 0},af),ah=E?x(function(a){var
-b=d(aE,f2(m,a[4]));return[0,a[4],b]},i):E,ai=g(j0(i,c,K,a[3]),ah),aj=g(bK(nx(i)),ai),L=g(bK(fO(i)),aj),M=dm(L),N=dl(M),r=cT(N),O=k(function(a){var
+b=d(aE,f2(m,a[4]));return[0,a[4],b]},i):E,ai=g(j0(i,c,K,a[3]),ah),aj=g(bK(ny(i)),ai),L=g(bK(fO(i)),aj),M=dm(L),N=dl(M),r=cT(N),O=k(function(a){var
 b=n(e);return a3(q(h(r,a),N,b),a)},L);if(O){var
-Q=ag(wh,a[3]);if(Q){var
+Q=ag(wi,a[3]);if(Q){var
 t=C,o=a[1];for(;;){if(o){var
 p=o[1],u=bH(e,t);switch(p[0]){case
 0:var
@@ -8441,8 +8446,8 @@ var
 v=Q;if(v){var
 ak=a[3],al=x(function(a){return d4(c,a)},ak),am=a[3],an=g(m,g(d(function(a){return ca(c,a)},am),al)),w=ad(d(function(a){return av(b,a)},an));if(w){var
 ao=bi(e2(a[2]),c),y=ad(d(function(a){return av(b,a)},ao));if(y){var
-z=ad(oJ(b,aI,r,m,i,c,K,a[3]));if(z){var
-S=z[1],ap=jX(S),aq=y[1],ar=a[2],as=function(a){return oK(b,ar,c,a)},at=w[1],au=nx(i),aw=h(aC(r),au),ax=fO(i);return fm(jW(b,M,h(aC(r),ax),aw,0,at,S,as),aq,ap,aH)}var
+z=ad(oK(b,aI,r,m,i,c,K,a[3]));if(z){var
+S=z[1],ap=jX(S),aq=y[1],ar=a[2],as=function(a){return oL(b,ar,c,a)},at=w[1],au=ny(i),aw=h(aC(r),au),ax=fO(i);return fm(jW(b,M,h(aC(r),ax),aw,0,at,S,as),aq,ap,aH)}var
 T=z}else
 var
 T=y;var
@@ -8457,19 +8462,19 @@ A=O;return A}return V}var
 aa=$}else
 var
 aa=B;return aa}function
-E0(a){if(0===a[0])return ry(a[1]);var
-b=a[1],c=e4(b[6]);return g(e4(b[5]),c)}function
 E1(a){if(0===a[0])return rz(a[1]);var
+b=a[1],c=e4(b[6]);return g(e4(b[5]),c)}function
+E2(a){if(0===a[0])return rA(a[1]);var
 b=a[1],c=bk(b[4]);return g(bk(b[3]),c)}function
-rQ(c){var
-b=x(E0,c),d=b?[0,b[1],b[2]]:x(E1,c);return G(a,bY(d))}function
-E2(a){if(0===a[0])return[0,iz(a[1]),e];var
+rR(c){var
+b=x(E1,c),d=b?[0,b[1],b[2]]:x(E2,c);return G(a,bY(d))}function
+E3(a){if(0===a[0])return[0,iz(a[1]),e];var
 b=a[1],c=bY(bk(b[2]));return[0,bY(bk(b[1])),c]}function
 lB(h,b,s,r,q,g,C,B,p){var
-a=lj(h,b,s,r,q,g),t=rQ(a[2]),u=d(E2,a[2]),i=kG(t,u,a[2]),D=f(p),E=rO(i,d(EX,a[2])),F=iF(i),G=iF(i),l=eq(as(h),G,F,E,D,p);if(l){var
+a=lj(h,b,s,r,q,g),t=rR(a[2]),u=d(E3,a[2]),i=kG(t,u,a[2]),D=f(p),E=rP(i,d(EY,a[2])),F=iF(i),G=iF(i),l=eq(as(h),G,F,E,D,p);if(l){var
 v=l[1];if(v[2])return 0;var
 w=iD(h,b,s,r,q,g);if(w){var
-H=v[1],I=f(b),J=et(ep(b),E3,I,0,g),K=iG(B),y=d(yh,a[2]),m=e$(j,a[2],y);if(m)var
+H=v[1],I=f(b),J=et(ep(b),E4,I,0,g),K=iG(B),y=d(yi,a[2]),m=e$(j,a[2],y);if(m)var
 z=j6(a[4]),c=c2(j,a[4],z);else
 var
 c=m;if(c){var
@@ -8479,19 +8484,19 @@ var
 o=1;var
 e=o}else
 var
-e=c;return e?ye(C,K,J,a,t,u,H):e}var
+e=c;return e?yf(C,K,J,a,t,u,H):e}var
 x=w}else
 var
 x=l;return x}function
 lC(z,C,a0,aZ,aY,ac,bB,aX,H){var
 I=typeof
-z==="number"?z?E4:E5:iC(z[1]),N=d(l,bB),b=lj(z,C,a0,aZ,aY,ac),a1=lu(C,d(l,aX));if(a1[2])return 0;var
+z==="number"?z?E5:E6:iC(z[1]),N=d(l,bB),b=lj(z,C,a0,aZ,aY,ac),a1=lu(C,d(l,aX));if(a1[2])return 0;var
 u=a1[1],a2=gz(x(lw,C),aX),a3=a2?iD(z,C,a0,aZ,aY,ac):a2;if(a3)var
 bC=as(z),ad=m(f(N),bC);else
 var
 ad=a3;if(ad){if(typeof
 H!=="number"&&2===H[0]){var
-ak=d(l,H[1]),bF=aw(I,ak),a8=aS(ao(I,ak)),bG=aw(I,N),a9=aS(ao(I,N)),ay=e$(j,b[2],u),az=ay?c2(j,b[4],a9):ay,aA=az?c2(j,b[4],a8):az,a_=aA?qD(j,b[1],b[3],b[5],u,a9,bG,a8,bF):aA;if(a_){var
+ak=d(l,H[1]),bF=aw(I,ak),a8=aS(ao(I,ak)),bG=aw(I,N),a9=aS(ao(I,N)),ay=e$(j,b[2],u),az=ay?c2(j,b[4],a9):ay,aA=az?c2(j,b[4],a8):az,a_=aA?qE(j,b[1],b[3],b[5],u,a9,bG,a8,bF):aA;if(a_){var
 bH=as(z);return m(f(ak),bH)}return a_}var
 bD=f(C),bE=gf(z),ae=ly(ep(C),bE,bD,0,ac,H);if(ae){var
 P=ae[1],g=aS(ao(I,N)),n=aw(I,N),a$=0;if(typeof
@@ -8510,7 +8515,7 @@ b=f[1];switch(b[0]){case
 i=b[4],j=b[3],k=b[2],h=b[1],m=cb(h,k,j,i,c),l=cz(b[5],m),o=T(l,aH(h)),p=d6(h,k,j,c);return[0,[0,kq(K,O(function(b,a){return[2,b,a]},p,o)),l,i]];case
 1:var
 q=bL(b,c),r=[6,v(bL(b,c),q)];return[0,[0,kq(K,bL(b,c)),[0,e,a],r]];default:return 0}}var
-d=f[1],s=d[6],t=d8(d,c),u=kb(d,c),w=d[4],x=O(function(b,a){return[2,b,a]},c,w);return[0,[0,kq(K,O(function(b,a){return[3,b,a]},x,u)),t,s]]},u),bh=d(function(a){return e_(y,n,g,a)},u),bi=[0,d(function(a){return pC(K,ax,y,n,g,a)},u),bh,bg,bf,be,bd,ba],bm=as(b[1]),ah=j8(j,gf(b[1]),bm,bi,bk,P);else
+d=f[1],s=d[6],t=d8(d,c),u=kb(d,c),w=d[4],x=O(function(b,a){return[2,b,a]},c,w);return[0,[0,kq(K,O(function(b,a){return[3,b,a]},x,u)),t,s]]},u),bh=d(function(a){return e_(y,n,g,a)},u),bi=[0,d(function(a){return pD(K,ax,y,n,g,a)},u),bh,bg,bf,be,bd,ba],bm=as(b[1]),ah=j8(j,gf(b[1]),bm,bi,bk,P);else
 var
 ah=av;if(ah)var
 ai=ah;else{if(typeof
@@ -8564,13 +8569,13 @@ aP=[0,f7(p[1]),0];at=1}else{var
 aP=p;at=1}if(at)var
 r=aP}var
 aV=G[3],aa=b[5],ab=b[3],bz=G[4],bA=G[2],S=ag(function(l){var
-S=pC(t,ab,aa,n,g,o),D=bj(l,l),E=[4,[4,bA,[6,bj(S,S)]],D],A=ee(aa,n,ed(o)),h=bl(aa,n,g,o),ax=typeof
+S=pD(t,ab,aa,n,g,o),D=bj(l,l),E=[4,[4,bA,[6,bj(S,S)]],D],A=ee(aa,n,ed(o)),h=bl(aa,n,g,o),ax=typeof
 t==="number"?[0,[0,e,a],[0,e,a],[0,e,a]]:kV(t[1],l),s=T([5,[0,a,a],ab],ax),R=0===o[0]?cc(o[1],h):kc(o[1],h),ay=v(s,s),az=[4,v(R,A),ay],aA=v(A,s),aB=[3,[4,v(R,s),aA],az],aC=cA(s,A);function
 p(b){return q(b,l,[0,e,a])}if(typeof
 t==="number")if(t)var
-ag=p(y0),C=[0,p(0),ag,[0,e,a]];else
+ag=p(y1),C=[0,p(0),ag,[0,e,a]];else
 var
-ah=p(y1),ai=p(y2),C=[0,p(0),ai,ah];else
+ah=p(y2),ai=p(y3),C=[0,p(0),ai,ah];else
 var
 C=kU(t[1],l);var
 b=O(function(b,a){return[2,b,a]},C,aC);if(0===o[0]){var
@@ -8614,14 +8619,14 @@ aj=p[1],aB=b[1],Q=b[5],aC=e$(j,b[2],u),aD=aC?h2(j,b,g,n):aC;if(aD){var
 bo=b[6],U=d7(j,gf(aB),a6,bo);if(U){var
 L=U[1][1];if(typeof
 L!=="number"&&16===L[0]){var
-A=L[1],bp=b[2],bq=d(function(a){return e_(Q,n,g,qQ(a))},bp),aI=h(cB(c5),A);if(aI)var
+A=L[1],bp=b[2],bq=d(function(a){return e_(Q,n,g,qR(a))},bp),aI=h(cB(c5),A);if(aI)var
 bn=h(g4(c(2,a)),c5),D=[0,bx(e,aI[1][1]),bn];else
 var
 D=[0,e,a];var
 aJ=i(j,0,A);if(aJ)var
 br=b[2],V=k(function(a){var
-b=qQ(a);if(0===b[0])return 1;var
-c=b[1],d=[1,c],e=cC(j,A),f=e?pD(j,a,d):e;return f?i(j,1,j_(c,bl(Q,n,g,d))):f},br);else
+b=qR(a);if(0===b[0])return 1;var
+c=b[1],d=[1,c],e=cC(j,A),f=e?pE(j,a,d):e;return f?i(j,1,j_(c,bl(Q,n,g,d))):f},br);else
 var
 V=aJ;if(V)var
 bs=f(b[2]),W=m(f(aj),bs);else
@@ -8645,7 +8650,7 @@ b!=="number"&&0===b[0]){var
 q=b[1],C=0,D=d[1],E=O(function(b,a){return[3,b,a]},g,D);return[0,[0,ei([5,[0,h,a],[2,q,c3(d,e)]]),q,E,i],C]}return 0;default:return 0}}var
 c=f[1];if(typeof
 b!=="number"&&1===b[0]){var
-r=b[2],s=b[1],F=[4,r,f9(c,e)],G=[3,[4,s,f_(c,e)],F],I=T(r,f8(c)),H=0,J=T(s,e3(c)),K=O(function(b,a){return[2,b,a]},J,I),L=T(c[5],K),M=c[3],N=O(function(b,a){return[2,b,a]},M,L),P=O(function(b,a){return[3,b,a]},g,N),R=c[6],S=[2,d8(c,e),G];return[0,[0,ei([5,[0,h,a],[4,c[5],S]]),R,P,i],H]}return 0},bu);return qO(j,aB,L[2],L[3],bv)}return W}var
+r=b[2],s=b[1],F=[4,r,f9(c,e)],G=[3,[4,s,f_(c,e)],F],I=T(r,f8(c)),H=0,J=T(s,e3(c)),K=O(function(b,a){return[2,b,a]},J,I),L=T(c[5],K),M=c[3],N=O(function(b,a){return[2,b,a]},M,L),P=O(function(b,a){return[3,b,a]},g,N),R=c[6],S=[2,d8(c,e),G];return[0,[0,ei([5,[0,h,a],[4,c[5],S]]),R,P,i],H]}return 0},bu);return qP(j,aB,L[2],L[3],bv)}return W}var
 aE=0}else
 var
 aE=U;var
@@ -8670,16 +8675,16 @@ var
 d=c;var
 e=d}else
 var
-e=b;return e}return E6}function
+e=b;return e}return E7}function
 iH(g,k,j,b,i){var
 l=f(g),h=m(f(b),l);if(h){var
 n=M(M(g,M(k,j)),b);return d(function(f){var
-g=f[1],h=g[2],j=dS(h[2],h[1]),b=aX(g[1],i),k=D(e,b)?mS(cq(c(2,a),b)):[0,a,eH(cq(c(2,a),W(b)))],l=dT(hb(bb([0,c(2,a),a],k),j)),m=f[2];return d(function(a){return dT(bb(mS(a),l))},m)},n)}return h}function
+g=f[1],h=g[2],j=dS(h[2],h[1]),b=aX(g[1],i),k=D(e,b)?mT(cq(c(2,a),b)):[0,a,eH(cq(c(2,a),W(b)))],l=dT(hb(bb([0,c(2,a),a],k),j)),m=f[2];return d(function(a){return dT(bb(mT(a),l))},m)},n)}return h}function
 lD(u,aU,aq,ap,t,ao,b){var
-c=is(u,aU,aq,ap),ar=gz(x(rF,u),ao),g=ar?iE(u,aq,ap,c):ar;if(t){var
+c=is(u,aU,aq,ap),ar=gz(x(rG,u),ao),g=ar?iE(u,aq,ap,c):ar;if(t){var
 v=t[2];if(v){var
 w=v[2];if(w){if(w[2])return 0;var
-h=w[1],i=v[1],m=t[1],as=rD(u,d(l,ao));if(as[2])return 0;var
+h=w[1],i=v[1],m=t[1],as=rE(u,d(l,ao));if(as[2])return 0;var
 f=as[1];if(typeof
 b!=="number")switch(b[0]){case
 2:var
@@ -8699,7 +8704,7 @@ aB=N}else
 var
 aB=M;return aB}if(g){var
 aZ=l(L[1]),a0=l(K[1]),aC=[0,l(J[1]),a0,aZ],a1=l(h),a2=l(i),aD=[0,l(m),a2,a1],X=f3(j,c,f,aD),Y=X?c2(j,c[2],aC):X;if(Y){var
-aR=0,aS=0;return qD(j,0,[0,a,a],0,d(function(a){return[0,a]},f),aD,aS,aC,aR)}return Y}return g}var
+aR=0,aS=0;return qE(j,0,[0,a,a],0,d(function(a){return[0,a]},f),aD,aS,aC,aR)}return Y}return g}var
 O=gx(c,b);if(O){var
 a3=l(h),a4=l(i),aE=[0,l(m),a4,a3];if(g){var
 aF=f5(j,c,f,aE,O[1]);if(aF)var
@@ -8748,14 +8753,14 @@ p=n[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;if(o){var
 r=o[2];if(r){var
 s=r[2];if(s){if(s[2])return 0;var
-Z=s[1],_=r[1],$=o[1],aa=q[1],ab=p[1],ac=n[1],ad=[0,[1,0,ac,$],[1,yC,ab,_],[1,yB,aa,Z]],ae=f3(j,c,f,D);if(ae)var
+Z=s[1],_=r[1],$=o[1],aa=q[1],ab=p[1],ac=n[1],ad=[0,[1,0,ac,$],[1,yD,ab,_],[1,yC,aa,Z]],ae=f3(j,c,f,D);if(ae)var
 aT=c[3],E=ag(function(a){if(typeof
 a==="number"&&a)return 1;return 0},aT);else
 var
 E=ae;var
 af=E?id(n,o):E,ah=af?kZ(j,c[2],[0,[0,ac,ab],aa],[0,[0,$,_],Z]):af,ai=ah?fc(j,n,o,a5(D)):ah,aj=ai?k(function(a){var
 b=fb(k0(a)),c=b?fb([0,c3(a,D),0]):b;if(c){var
-d=j4(a,ad);if(d)return kY(j,yD,d[1]);var
+d=j4(a,ad);if(d)return kY(j,yE,d[1]);var
 e=1}else
 var
 e=c;return e},f):ai;if(aj)return ic(j,d(function(a){var
@@ -8807,18 +8812,18 @@ ax=v;var
 ay=ax}else
 var
 ay=t;return ay}function
-rR(n,m,b,l,C,B){var
+rS(n,m,b,l,C,B){var
 f=C,e=B;for(;;){if(0===e[0]){var
-h=e[1],i=F(f,h),o=i?aF(i[1][2],E9):i;if(o)var
-D=e[2],j=rR(n,m,b,l,lr(0,h,f),D);else
+h=e[1],i=F(f,h),o=i?aF(i[1][2],E_):i;if(o)var
+D=e[2],j=rS(n,m,b,l,lr(0,h,f),D);else
 var
 j=o;if(j){var
 E=e[3],f=lr(1,h,f),e=E;continue}return j}var
-c=e[1],a=rw(0,n,f),p=d(function(b){function
-d(b){return rx(a,b)}function
+c=e[1],a=rx(0,n,f),p=d(function(b){function
+d(b){return ry(a,b)}function
 c(a){return lp(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=rx(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=ry(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
 i=y(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},m);if(0===b[0])var
 t=b[2],u=lp(function(b){return aD(a,b)},t),v=b[1],k=[0,lp(function(b){return aD(a,b)},v),u];else
@@ -8855,7 +8860,7 @@ g!=="number"&&2===g[0]){var
 J=g[1],r=[2,d(function(b){return aD(a,b)},J)];s=1}if(!s)var
 r=g;var
 G=c[3],H=d(function(b){return aD(a,b)},G),I=c[2];return lD(p,k,0,q,d(function(b){return aD(a,b)},I),H,r)}}}function
-rS(h,g){var
+rT(h,g){var
 b=cV(l(h));if(b){var
 c=b[1],d=bp([0,e,a],c);if(d)return bp(c,g);var
 f=d}else
@@ -8865,13 +8870,13 @@ gA(b,a){if(a){var
 c=a[1],d=q(c,b,0);if(d)var
 g=ao(c,b),e=[0,[0,f(aN(function(a){return a},g))]];else
 var
-e=d;return e}return E$}function
-rT(b,c,a){return x(function(a){if(cj(a)){var
-e=it(0,b,0,a);return X(1,mO(d(function(a){return f6(j,Fa,a)},e)))}return X(0,f(rj(b,c,a)))},a)}function
-rU(c,a){return d(function(a){var
+e=d;return e}return Fa}function
+rU(b,c,a){return x(function(a){if(cj(a)){var
+e=it(0,b,0,a);return X(1,mP(d(function(a){return f6(j,Fb,a)},e)))}return X(0,f(rk(b,c,a)))},a)}function
+rV(c,a){return d(function(a){var
 b=a[4],d=a[3],e=a[2],f=a[1];return[0,x(function(b){var
 a=gA(c,b[1]),d=a?[0,[0,a[1],b[2]],0]:a;return d},f),e,d,b]},a)}function
-rV(b,a){if(typeof
+rW(b,a){if(typeof
 a!=="number")switch(a[0]){case
 0:var
 c=a[2],d=gA(b,a[1]);return y(function(a){return[0,a,c]},d);case
@@ -8879,7 +8884,7 @@ c=a[2],d=gA(b,a[1]);return y(function(a){return[0,a,c]},d);case
 e=a[2],f=gA(b,a[1]);return y(function(a){return[1,a,e]},f);case
 3:var
 g=a[5],h=a[4],i=a[3],j=a[2],k=gA(b,a[1]);return y(function(a){return[3,a,j,i,h,g]},k)}return[0,a]}function
-Fg(w){var
+Fh(w){var
 gO=iq(w[3]),gP=gO?iq(w[4]):gO;if(gP){var
 ai=w[1];switch(ai[0]){case
 3:var
@@ -8905,19 +8910,19 @@ var
 df=gP;var
 el=0;if(df){var
 gQ=w[1],dg=7===gQ[0]?d(ap,gQ[1]):0,gR=function(c,b){var
-a=rg(c);return a?k(function(a){var
+a=rh(c);return a?k(function(a){var
 e=a[1],b=k(function(a){return le(a[2])},e);if(b){var
-c=a[3];if(c)return gw(dg,rf(c[1]));var
+c=a[3];if(c)return gw(dg,rg(c[1]));var
 d=1}else
 var
 d=b;return d},b):a},gS=function(e,d,c,b){var
-a=rg(e);return a?gw(dg,g(d,g(c,rf(b)))):a},o=w[1];switch(o[0]){case
+a=rh(e);return a?gw(dg,g(d,g(c,rg(b)))):a},o=w[1];switch(o[0]){case
 0:var
-k9=x(em,o[4]),k_=g(x(rd,o[3]),k9),k$=g(rb(o[2]),k_),aj=g(x(lg,o[1]),k$);break;case
+k9=x(em,o[4]),k_=g(x(re,o[3]),k9),k$=g(rc(o[2]),k_),aj=g(x(lg,o[1]),k$);break;case
 1:var
-dc=o[5],dd=o[3],la=x(em,o[6]),lb=dc?rc(dc[1]):dc,lc=g(lb,la),ld=g(ra(o[4]),lc),li=dd?[0,dd[1],0]:dd,lm=g(li,ld),aj=g(x(DB,o[2]),lm);break;case
+dc=o[5],dd=o[3],la=x(em,o[6]),lb=dc?rd(dc[1]):dc,lc=g(lb,la),ld=g(rb(o[4]),lc),li=dd?[0,dd[1],0]:dd,lm=g(li,ld),aj=g(x(DC,o[2]),lm);break;case
 2:var
-ln=x(em,o[7]),lo=g(x(rd,o[6]),ln),lp=g(rc(o[5]),lo),lr=g(ra(o[4]),lp),lv=[0,o[3],lr],lE=o[2],aj=g(x(function(a){return x(fh,g(a[1],a[2]))},lE),lv);break;case
+ln=x(em,o[7]),lo=g(x(re,o[6]),ln),lp=g(rd(o[5]),lo),lr=g(rb(o[4]),lp),lv=[0,o[3],lr],lE=o[2],aj=g(x(function(a){return x(fh,g(a[1],a[2]))},lE),lv);break;case
 3:var
 lF=x(em,o[7]),lG=g(o[6],lF),lH=g(o[5],lG),lI=o[2],aj=g(x(function(a){return fh(a[2])},lI),lH);break;case
 4:var
@@ -8926,7 +8931,7 @@ lJ=x(em,o[3]),aj=[0,o[1],[0,o[2],lJ]];break;case
 lK=x(em,o[4]),lL=g(ch(o[3]),lK),lM=g(ch(o[2]),lL),lN=g(x(lg,o[1]),lM),aj=[0,o[5],lN];break;case
 6:var
 de=o[1],aj=de?fh(de[1]):de;break;default:var
-lO=x(em,o[4]),lP=g(rb(o[3]),lO),aj=g(x(lg,o[2]),lP)}var
+lO=x(em,o[4]),lP=g(rc(o[3]),lO),aj=g(x(lg,o[2]),lP)}var
 gT=gw(dg,aj);if(gT){var
 ak=w[2];switch(ak[0]){case
 0:var
@@ -8944,18 +8949,18 @@ b=w[1];switch(b[0]){case
 0:var
 Q=b[4],am=b[3],an=b[2],S=b[1],aJ=w[2];switch(aJ[0]){case
 0:var
-dH=aJ[3],hq=aJ[2],dI=aJ[1],g8=rT(f(S),am,Q),l2=aN(function(a){return J(cj(a))},Q);if(ag(cj,Q)){var
-g9=lA(0,S,an,am,l2,dI,hq,rU(d(J,g8),dH));if(g9){var
-l3=rU(g8,dH),l4=aN(cj,Q),l5=ll(an);return lB(0,d(lk,S),0,l5,0,l4,dI,0,l3)}return g9}return lA(0,S,an,am,Q,dI,hq,dH);case
+dH=aJ[3],hq=aJ[2],dI=aJ[1],g8=rU(f(S),am,Q),l2=aN(function(a){return J(cj(a))},Q);if(ag(cj,Q)){var
+g9=lA(0,S,an,am,l2,dI,hq,rV(d(J,g8),dH));if(g9){var
+l3=rV(g8,dH),l4=aN(cj,Q),l5=ll(an);return lB(0,d(lk,S),0,l5,0,l4,dI,0,l3)}return g9}return lA(0,S,an,am,Q,dI,hq,dH);case
 1:var
-dJ=aJ[4],dL=aJ[3],dM=aJ[2],g_=rT(f(S),am,Q),dw=aN(function(a){return J(cj(a))},Q);if(ag(cj,Q)){var
+dJ=aJ[4],dL=aJ[3],dM=aJ[2],g_=rU(f(S),am,Q),dw=aN(function(a){return J(cj(a))},Q);if(ag(cj,Q)){var
 l6=aN(cj,Q),l7=ll(an),g$=iD(0,d(lk,S),0,l7,0,l6);if(g$)var
-dx=rV(d(J,g_),dJ),l8=dx?lD(S,an,am,dw,dM,dL,dx[1]):dx,dy=l8;else
+dx=rW(d(J,g_),dJ),l8=dx?lD(S,an,am,dw,dM,dL,dx[1]):dx,dy=l8;else
 var
 dy=g$;if(dy)var
 dA=dy;else{var
 ha=iE(S,am,dw,is(S,an,am,dw));if(ha){var
-dC=rV(g_,dJ);if(dC){var
+dC=rW(g_,dJ);if(dC){var
 l9=dC[1],l_=aN(cj,Q),l$=ll(an);return lC(0,d(lk,S),0,l$,0,l_,dM,dL,l9)}var
 dA=dC}else
 var
@@ -8967,7 +8972,7 @@ bs=b[6],bU=b[5],bV=b[4],bW=b[3],Z=b[2],U=b[1],aK=w[2];switch(aK[0]){case
 aq=aK[4],dN=aK[3],hr=aK[2];if(typeof
 aq!=="number"&&3===aq[0]){var
 mk=aq[5],ml=aq[4],mm=aq[3],mn=aq[2],mo=aq[1],s=typeof
-U==="number"?U?E7:E8:iC(U[1]),gX=dP(as(U),s),dk=d(l,hr),a7=lj(U,Z,bW,bV,bU,bs),gY=rQ(a7[2]),gZ=lu(Z,d(l,dN));if(gZ[2])return 0;var
+U==="number"?U?E8:E9:iC(U[1]),gX=dP(as(U),s),dk=d(l,hr),a7=lj(U,Z,bW,bV,bU,bs),gY=rR(a7[2]),gZ=lu(Z,d(l,dN));if(gZ[2])return 0;var
 dn=da(mn);if(dn){var
 Y=dn[1],dq=da(mm);if(dq){var
 aI=dq[1],g0=gz(x(lw,Z),dN),g1=g0?iD(U,Z,bW,bV,bU,bs):g0;if(g1)var
@@ -8980,7 +8985,7 @@ du=dt;if(du){if(ep(Z))var
 lZ=X(e,gX),g2=g(X(gY,s),lZ);else
 var
 l1=X(W(gY),gX),g2=g(X(e,s),l1);var
-l0=iH(g2,Y,aI,ml,mk),al=aw(s,dk),bn=aS(ao(s,dk)),dv=gZ[1],N=a7[5],fE=kX(0,Y,aI),cD=qJ(ao(s,fE)),cF=aw(s,fE),fF=a7[7],fG=fF?e$(j,a7[2],dv):fF,fH=fG?h2(j,a7,bn,al):fG,fI=fH?ae(s,yN):fH;if(fI)var
+l0=iH(g2,Y,aI,ml,mk),al=aw(s,dk),bn=aS(ao(s,dk)),dv=gZ[1],N=a7[5],fE=kX(0,Y,aI),cD=qK(ao(s,fE)),cF=aw(s,fE),fF=a7[7],fG=fF?e$(j,a7[2],dv):fF,fH=fG?h2(j,a7,bn,al):fG,fI=fH?ae(s,yO):fH;if(fI)var
 j5=P(s,f(al)),cG=m(f(Y),j5);else
 var
 cG=fI;var
@@ -8989,7 +8994,7 @@ j9=ie(ao(s,aI)),j_=ie(ao(s,Y)),cH=kZ(j,a7[4],j_,j9);else
 var
 cH=fJ;if(cH){var
 j$=aw(s,aI),ka=aw(s,Y);if(N)var
-fC=N[1],j4=0===fC[0]?yL:yM,fD=m(f(al),j4),fK=fD?qI(j,fC,ka,j$):fD;else
+fC=N[1],j4=0===fC[0]?yM:yN,fD=m(f(al),j4),fK=fD?qJ(j,fC,ka,j$):fD;else
 var
 fK=m(f(al),0);var
 cI=fK}else
@@ -8998,7 +9003,7 @@ cI=cH;if(cI){var
 kb=ao(s,a5(bn)),kc=ao(s,aI),fL=fc(j,ao(s,Y),kc,kb);if(fL)var
 a2=fL;else
 if(N){var
-fN=qH(N[1]);if(fN)var
+fN=qI(N[1]);if(fN)var
 kd=aw(s,aI),a2=fc(j,aw(s,Y),kd,al);else
 var
 a2=fN}else
@@ -9037,25 +9042,25 @@ g4=dn;return g4}return lC(U,Z,bW,bV,bU,bs,hr,dN,aq);default:return 0}case
 2:var
 aL=b[7],aM=b[6],bX=b[5],bZ=b[4],b0=b[3],_=b[2],$=b[1],aO=w[2];switch(aO[0]){case
 0:var
-hs=aO[3],ar=ro($,_,b0,bZ,bX,aM,aL),mp=ar[2],dO=G(a,bY(x(function(a){var
+hs=aO[3],ar=rp($,_,b0,bZ,bX,aM,aL),mp=ar[2],dO=G(a,bY(x(function(a){var
 b=bk(a[2]);return g(bk(a[1]),b)},mp))),mq=f(hs),mr=kB(dO,ar[2]),ms=kB(dO,ar[2]),dQ=eq(bM($),ms,mr,0,mq,hs);if(dQ){var
 ht=dQ[1];if(ht[2])return 0;var
-hu=rJ($,_,b0,bZ,bX,aM,aL);if(hu){var
+hu=rK($,_,b0,bZ,bX,aM,aL);if(hu){var
 mt=ht[1],mu=f(_),mv=et(0,lx($),mu,aM,aL),mw=iG(aO[2]),mx=aO[1],iZ=ar[2],eu=k(function(a){var
-b=p3(j,a[1]);return b?p3(j,a[2]):b},iZ);if(eu)var
+b=p4(j,a[1]);return b?p4(j,a[2]):b},iZ);if(eu)var
 i0=j6(ar[4]),cb=c2(j,ar[4],i0);else
 var
 cb=eu;if(cb)var
 i1=hZ(ar[5]),cc=k(function(a){return gh(j,a)},i1);else
 var
-cc=cb;return cc?xL(mx,mw,mv,ar,dO,mt):cc}var
+cc=cb;return cc?xM(mx,mw,mv,ar,dO,mt):cc}var
 hv=hu}else
 var
 hv=dQ;return hv;case
 1:var
-aa=aO[4],hw=aO[3],aQ=d(l,aO[2]),r=iC($),hx=rE(_,d(l,hw));if(hx[2])return 0;var
-t=hx[1],hy=gz(x(function(a){return g(a[1],a[2])},_),hw),hz=hy?rJ($,_,b0,bZ,bX,aM,aL):hy;if(hz){var
-p=ro($,_,b0,bZ,bX,aM,aL);if(typeof
+aa=aO[4],hw=aO[3],aQ=d(l,aO[2]),r=iC($),hx=rF(_,d(l,hw));if(hx[2])return 0;var
+t=hx[1],hy=gz(x(function(a){return g(a[1],a[2])},_),hw),hz=hy?rK($,_,b0,bZ,bX,aM,aL):hy;if(hz){var
+p=rp($,_,b0,bZ,bX,aM,aL);if(typeof
 aa!=="number")switch(aa[0]){case
 2:var
 hF=d(l,aa[1]),hG=aw(r,hF),hH=aS(ao(r,hF)),hK=aw(r,aQ),hL=aS(ao(r,aQ)),ev=e5(j,p,t,hL,hK),ew=ev?e5(j,p,t,hH,hG):ev;if(ew)var
@@ -9069,23 +9074,23 @@ dT=da(aa[2]);if(dT){var
 at=dT[1],dU=da(aa[3]);if(dU){var
 aR=dU[1],mz=p[2],mA=G(a,bY(x(function(a){var
 b=bk(a[2]);return g(bk(a[1]),b)},mz))),mB=f(_),mC=et(0,lx($),mB,aM,aL),hM=m(aa[1],mC);if(hM){var
-mD=aa[5],mE=aa[4],mF=X(W(mA),dP(f(aQ),r)),mG=iH(g(X(e,r),mF),at,aR,mE,mD),a8=aw(r,aQ),b3=aS(ao(r,aQ)),a1=p[5],fu=kX(0,at,aR),fv=p[7],fw=fv?e5(j,p,t,b3,a8):fv,fx=fw?ae(r,yI):fw;if(fx)var
+mD=aa[5],mE=aa[4],mF=X(W(mA),dP(f(aQ),r)),mG=iH(g(X(e,r),mF),at,aR,mE,mD),a8=aw(r,aQ),b3=aS(ao(r,aQ)),a1=p[5],fu=kX(0,at,aR),fv=p[7],fw=fv?e5(j,p,t,b3,a8):fv,fx=fw?ae(r,yJ):fw;if(fx)var
 jS=P(r,f(a8)),cy=m(f(at),jS);else
 var
 cy=fx;if(cy)var
-jT=0===a1[0]?yJ:yK,cz=m(f(a8),jT);else
+jT=0===a1[0]?yK:yL,cz=m(f(a8),jT);else
 var
 cz=cy;var
 fy=cz?id(at,aR):cz;if(fy)var
 jU=ie(ao(r,aR)),jV=ie(ao(r,at)),cB=kZ(j,p[4],jV,jU);else
 var
 cB=fy;if(cB)var
-jZ=aw(r,aR),cC=qI(j,a1,aw(r,at),jZ);else
+jZ=aw(r,aR),cC=qJ(j,a1,aw(r,at),jZ);else
 var
 cC=cB;if(cC){var
 j1=ao(r,a5(b3)),j2=ao(r,aR),fz=fc(j,ao(r,at),j2,j1);if(fz)var
 bl=fz;else{var
-fB=qH(a1);if(fB)var
+fB=qI(a1);if(fB)var
 j3=aw(r,aR),bl=fc(j,aw(r,at),j3,a8);else
 var
 bl=fB}}else
@@ -9093,7 +9098,7 @@ var
 bl=cC;var
 fA=bl?k(function(a){var
 c=a5(a[2]),b=fb(g(a5(a[1]),c));return b?fb([0,k1(a1,a8,b3,a),0]):b},t):bl;return fA?ic(j,d(function(a){var
-b=[6,k1(a1,a8,b3,a)],c=qJ(ao(r,fu));return[3,[6,k1(a1,aw(r,fu),c,a)],b]},t),mG):fA}var
+b=[6,k1(a1,a8,b3,a)],c=qK(ao(r,fu));return[3,[6,k1(a1,aw(r,fu),c,a)],b]},t),mG):fA}var
 hN=hM}else
 var
 hN=dU;var
@@ -9106,14 +9111,14 @@ af=p[5],er=p[3],es=p[1],iW=p[6],b$=function(a){var
 b=cd(af,u,z,a);return v(cd(af,u,z,a),b)},iP=d(function(a){return[0,kf(es,er,af,u,z,a)]},t),iQ=d(b$,t),iR=function(a){var
 b=dz(af,u,a);return O(function(b,a){return[2,b,a]},z,b)},iS=d(function(a){var
 b=[6,b$(a)],c=cd(af,u,z,a),d=dz(af,u,a[2]);return[0,[0,[0,O(function(b,a){return[2,b,a]},z,d),c],b]]},t),iT=d(function(a){return 0},t),iU=d(function(a){return[0,[6,b$(a)]]},t),iV=[0,d(function(c){var
-b=aH(cd(af,u,z,c));return ke(es,b,T([5,[0,a,a],er],cA(dz(af,u,c[2]),b)))},t),iU,iT,iS,iR,iQ,iP],iX=bM(p[1]),iY=2<=p[1]?wy:wz,dS=j8(j,iY,iX,iV,iW,bt);else
+b=aH(cd(af,u,z,c));return ke(es,b,T([5,[0,a,a],er],cA(dz(af,u,c[2]),b)))},t),iU,iT,iS,iR,iQ,iP],iX=bM(p[1]),iY=2<=p[1]?wz:wA,dS=j8(j,iY,iX,iV,iW,bt);else
 var
 dS=eo;if(dS)var
 hA=dS;else{if(typeof
 bt!=="number"&&0===bt[0]){var
 b1=bt[2];if(b1){if(b1[2])return 0;var
 b2=b1[1],hD=bt[1],bg=p[1],fe=e5(j,p,t,z,u),en=0;if(fe){var
-jM=p[6],jN=2<=bg?yy:yz,cv=d7(j,jN,hD,jM),b8=0;if(cv){var
+jM=p[6],jN=2<=bg?yz:yA,cv=d7(j,jN,hD,jM),b8=0;if(cv){var
 a0=cv[1][1],b9=0;if(typeof
 a0!=="number"&&15===a0[0]){var
 cw=F(t,a0[1]);if(cw){var
@@ -9132,7 +9137,7 @@ fg=ff;en=1}}else{var
 fg=fe;en=1}if(en)var
 bu=fg;if(!bu){var
 fP=p[1],cJ=p[5],fQ=e5(j,p,t,z,u);if(fQ){var
-kg=p[6],kh=2<=fP?yW:yX,cK=d7(j,kh,hD,kg);if(cK){var
+kg=p[6],kh=2<=fP?yX:yY,cK=d7(j,kh,hD,kg);if(cK){var
 bm=cK[1][1];if(typeof
 bm!=="number"&&16===bm[0]){var
 fT=bm[1],fU=i(j,0,fT);if(fU)var
@@ -9140,8 +9145,8 @@ ki=f(p[2]),cL=m(f(b2),ki);else
 var
 cL=fU;if(cL){var
 kj=p[2],kk=M(M(t,ig(b2,d(function(a){var
-b=bO(a[2]);return qP(cd(cJ,u,z,[0,bO(a[1]),b]))},kj),fT)),b2),kl=d(function(e){var
-c=e[1],d=c[2],b=c[1],f=dz(cJ,u,b[2]),g=b[1],h=O(function(b,a){return[3,b,a]},z,g),i=[2,d,qP(cd(cJ,u,z,b))];return[0,ei([5,[0,e[2],a],i]),d,h,f]},kk);return qO(j,[0,fP],bm[2],bm[3],kl)}return cL}var
+b=bO(a[2]);return qQ(cd(cJ,u,z,[0,bO(a[1]),b]))},kj),fT)),b2),kl=d(function(e){var
+c=e[1],d=c[2],b=c[1],f=dz(cJ,u,b[2]),g=b[1],h=O(function(b,a){return[3,b,a]},z,g),i=[2,d,qQ(cd(cJ,u,z,b))];return[0,ei([5,[0,e[2],a],i]),d,h,f]},kk);return qP(j,[0,fP],bm[2],bm[3],kl)}return cL}var
 fR=0}else
 var
 fR=cK;var
@@ -9163,25 +9168,25 @@ au=b[7],bw=b[6],bx=b[5],ay=b[4],dV=b[3],aT=b[2],aU=b[1],aV=w[2];switch(aV[0]){ca
 0:var
 hP=aV[3],hQ=iF(kR(lh(aU,aT,dV,ay,bx,bw,au)[1])),mH=f(hP),dW=eq(f(aU),hQ,hQ,0,mH,hP);if(dW){var
 hR=dW[1];if(hR[2])return 0;var
-hS=rK(aU,aT,ay,bx,bw,au);if(hS){var
-mI=hR[1],ab=lh(aU,aT,dV,ay,bx,bw,au),mJ=et(0,Fh,f(ay),0,au),hU=iG(aV[2]),aW=aV[1],eQ=qv(ab[1]);if(eQ)var
+hS=rL(aU,aT,ay,bx,bw,au);if(hS){var
+mI=hR[1],ab=lh(aU,aT,dV,ay,bx,bw,au),mJ=et(0,Fi,f(ay),0,au),hU=iG(aV[2]),aW=aV[1],eQ=qw(ab[1]);if(eQ)var
 jq=ab[1][2],cq=k(function(a){return bI(j,a[2][1],a[2][2])},jq);else
 var
 cq=eQ;if(cq)var
 jr=ab[2],cr=k(function(a){return bI(j,a[1],a[2])},jr);else
 var
 cr=cq;if(cr){var
-B=ab[1],ba=f(B[1]),bC=ab[3],cf=f(B[2]),ey=P(cf,f(gj(d(aE,B[3])))),i5=B[3],ez=qr(h$(B),i5,cf),H=kP(ba,ez,B[4],ey),i6=kN(ez,B[4],ey),i7=B[3],eA=g(kM(h$(B),i7,cf),i6),eB=f(kR(B)),eC=kQ(B[2]),eD=d(function(a){return a[4]},H),i8=g(eA,dB(function(b,a){if(typeof
+B=ab[1],ba=f(B[1]),bC=ab[3],cf=f(B[2]),ey=P(cf,f(gj(d(aE,B[3])))),i5=B[3],ez=qs(h$(B),i5,cf),H=kP(ba,ez,B[4],ey),i6=kN(ez,B[4],ey),i7=B[3],eA=g(kM(h$(B),i7,cf),i6),eB=f(kR(B)),eC=kQ(B[2]),eD=d(function(a){return a[4]},H),i8=g(eA,dB(function(b,a){if(typeof
 a!=="number"&&16===a[0]){var
-c=eg(H);return p8(eC,d(function(a){return a[3]},H),c,eD)}return qm(H,b,a)},0,e,eB,bC)),i9=g(bK(eg(H)),i8),eE=g(bK(fa(H)),i9),eF=dm(eE),eG=dl(eF),aA=cT(eG),i_=function(c,b){if(typeof
+c=eg(H);return p9(eC,d(function(a){return a[3]},H),c,eD)}return qn(H,b,a)},0,e,eB,bC)),i9=g(bK(eg(H)),i8),eE=g(bK(fa(H)),i9),eF=dm(eE),eG=dl(eF),aA=cT(eG),i_=function(c,b){if(typeof
 b!=="number"&&16===b[0]){var
 f=B[4];if(k(function(a){return 0===a[0]?0:1},f)){var
-g=b[2],h=b[1],i=[0,K(aW,a)],j=eg(H);return p9(aW,aA,ba,ba,yi,0,eC,e,d(function(a){return a[3]},H),j,eD,i,h,g)}return yj}return qn(aW,aA,H,0,e,c,b)},eH=m(f(ab[2]),ba);if(eH)var
+g=b[2],h=b[1],i=[0,K(aW,a)],j=eg(H);return p_(aW,aA,ba,ba,yj,0,eC,e,d(function(a){return a[3]},H),j,eD,i,h,g)}return yk}return qo(aW,aA,H,0,e,c,b)},eH=m(f(ab[2]),ba);if(eH)var
 i$=B[4],ck=k(function(a){return 0===a[0]?m(f(a[1]),ba):1},i$);else
 var
 ck=eH;var
 eI=ck?k(function(a){var
-b=n(e);return a3(q(h(aA,a),eG,b),a)},eE):ck,eJ=eI?ag(qo,bC):eI;if(eJ){var
+b=n(e);return a3(q(h(aA,a),eG,b),a)},eE):ck,eJ=eI?ag(qp,bC):eI;if(eJ){var
 eK=J(ab[4]);if(eK)var
 bD=eK;else
 var
@@ -9214,20 +9219,20 @@ var
 hV=dW;return hV;case
 1:var
 ac=aV[4],hW=aV[3],b4=aV[2],A=lh(aU,aT,dV,ay,bx,bw,au),mK=d(l,hW),hX=bv(d(aE,aT),mK);if(hX[2])return 0;var
-E=hX[1],hY=gz(d(aE,aT),hW),h0=hY?rK(aU,aT,ay,bx,bw,au):hY,h1=h0?qv(A[1]):h0;if(h1)var
+E=hX[1],hY=gz(d(aE,aT),hW),h0=hY?rL(aU,aT,ay,bx,bw,au):hY,h1=h0?qw(A[1]):h0;if(h1)var
 mL=A[2],dY=k(function(a){return bI(j,a[1],a[2])},mL);else
 var
 dY=h1;if(dY){if(typeof
 ac!=="number")switch(ac[0]){case
 2:var
-d2=d(l,ac[1]),d3=d(l,b4),aB=A[1],bG=ia(aB),jQ=qy(aB),fj=d(function(a){return a[3]},jQ),fk=function(a){var
-b=qz(aB,E);function
-c(c){return eh(a,b,c)}return d(function(a){return d(c,a)},fj)},fl=cg(j,d(aE,aB[2]),E),fn=fl?cg(j,A[2],d3):fl,fo=fn?cg(j,A[2],d2):fn,fp=fo?m(f(d3),bG):fo,fq=fp?m(f(d2),bG):fp,fr=fq?qA(aB,aB[4]):fq,fs=fr?m(f(aB[4]),bG):fr,ft=fs?k(function(a){return k(kT,a)},fj):fs;if(ft){var
+d2=d(l,ac[1]),d3=d(l,b4),aB=A[1],bG=ia(aB),jQ=qz(aB),fj=d(function(a){return a[3]},jQ),fk=function(a){var
+b=qA(aB,E);function
+c(c){return eh(a,b,c)}return d(function(a){return d(c,a)},fj)},fl=cg(j,d(aE,aB[2]),E),fn=fl?cg(j,A[2],d3):fl,fo=fn?cg(j,A[2],d2):fn,fp=fo?m(f(d3),bG):fo,fq=fp?m(f(d2),bG):fp,fr=fq?qB(aB,aB[4]):fq,fs=fr?m(f(aB[4]),bG):fr,ft=fs?k(function(a){return k(kT,a)},fj):fs;if(ft){var
 jR=fk(d2);return kJ(j,bG,fk(d3),jR)}return ft;case
 3:var
 d5=da(ac[2]);if(d5){var
 a9=d5[1],d6=da(ac[3]);if(d6){var
-bA=d6[1],mN=et(0,Fj,f(ay),0,au),h6=m(ac[1],mN);if(h6){var
+bA=d6[1],mN=et(0,Fk,f(ay),0,au),h6=m(ac[1],mN);if(h6){var
 mO=ac[5],mP=ac[4],mQ=iH(X(e,f(aU)),a9,bA,mP,mO),bB=d(l,b4),aF=A[1],gd=kX(0,a9,bA),ge=A[4],gg=ge?cg(j,d(aE,aF[2]),E):ge,gi=gg?cg(j,A[2],bB):gg;if(gi)var
 kv=d(bc,a9),cU=cg(j,A[2],kv);else
 var
@@ -9241,10 +9246,10 @@ var
 cY=gm;if(cY){var
 cZ=k5(aF[4]);if(cZ){var
 bN=cZ[1],gn=k(gp,bN);if(gn)var
-ky=1,c0=qR(function(a){return i(j,ky,a)},aF,E,bB,bN);else
+ky=1,c0=qS(function(a){return i(j,ky,a)},aF,E,bB,bN);else
 var
 c0=gn;if(c0)var
-kz=f(a9),c1=qR(function(a){return kY(j,kz,a)},aF,E,gd,bN);else
+kz=f(a9),c1=qS(function(a){return kY(j,kz,a)},aF,E,gd,bN);else
 var
 c1=c0;if(c1)return ic(j,d(function(a){var
 b=a6(go(aF,E,bB),a);return[3,a6(go(aF,E,gd),a),b]},bN),mQ);var
@@ -9260,8 +9265,8 @@ h7=d6;var
 h8=h7}else
 var
 h8=d5;return h8}var
-dZ=ly(0,Fi,f(ay),0,au,ac);if(dZ){var
-by=dZ[1],aX=d(l,b4),L=A[1],eS=ia(L),bb=qy(L),jy=qw(L),jz=L[4],jA=kN(qx(L),jz,jy),jB=f(L[2]),jC=L[3],eR=g(kM(h$(L),jC,jB),jA),bd=qz(L,E),eT=cg(j,d(aE,L[2]),E),eU=eT?cg(j,A[2],aX):eT,eV=eU?m(f(aX),eS):eU,eW=eV?qA(L,L[4]):eV,eX=eW?k(kT,g(x(yn,bb),eR)):eW;if(eX)var
+dZ=ly(0,Fj,f(ay),0,au,ac);if(dZ){var
+by=dZ[1],aX=d(l,b4),L=A[1],eS=ia(L),bb=qz(L),jy=qx(L),jz=L[4],jA=kN(qy(L),jz,jy),jB=f(L[2]),jC=L[3],eR=g(kM(h$(L),jC,jB),jA),bd=qA(L,E),eT=cg(j,d(aE,L[2]),E),eU=eT?cg(j,A[2],aX):eT,eV=eU?m(f(aX),eS):eU,eW=eV?qB(L,L[4]):eV,eX=eW?k(kT,g(x(yo,bb),eR)):eW;if(eX)var
 jD=A[3],js=d(function(a){var
 b=a[1];return[0,d(function(a){return eh(aX,bd,a)},b)]},bb),jt=x(function(c){var
 a=c[1];switch(a[0]){case
@@ -9269,7 +9274,7 @@ a=c[1];switch(a[0]){case
 b=eh(aX,bd,a[2]);return[0,[4,b,b],0];case
 9:return[0,eh(aX,bd,a[1]),0];default:return 0}},eR),ju=function(a){return a},jv=0,jw=d(function(a){return 0},bb),jx=d(function(b){var
 a=b[4];if(typeof
-a!=="number"&&0===a[0])return[0,eh(aX,bd,a[1])];return 0},bb),d0=j8(j,yo,eS,[0,d(function(a){var
+a!=="number"&&0===a[0])return[0,eh(aX,bd,a[1])];return 0},bb),d0=j8(j,yp,eS,[0,d(function(a){var
 b=a[3];return d(function(a){return eh(aX,bd,a)},b)},bb),jx,jw,jv,ju,jt,js],jD,by);else
 var
 d0=eX;if(d0)var
@@ -9280,7 +9285,7 @@ d1=b5[1],mM=by[1],bz=d(l,b4),aD=A[1],bH=f(aD[1]),fV=cg(j,d(aE,aD[2]),E),fW=fV?cg
 km=aD[3],cM=k(function(a){return gp(a[2])},km);else
 var
 cM=fY;if(cM){var
-cN=d7(j,yZ,mM,A[3]);if(cN){var
+cN=d7(j,y0,mM,A[3]);if(cN){var
 bJ=cN[1][1];if(typeof
 bJ!=="number"&&16===bJ[0]){var
 f2=bJ[2],f3=bJ[1],cO=k5(aD[4]);if(cO){var
@@ -9319,27 +9324,27 @@ h5=dY;return h5;default:return 0}case
 aY=b[3],a_=b[2],b6=b[1],aZ=w[2];switch(aZ[0]){case
 0:var
 mR=aZ[3],mS=aZ[2],mT=aZ[1],hb=dK(l(b6));if(hb){var
-dD=rq(aY);if(dD){var
+dD=rr(aY);if(dD){var
 hc=dD[1],bo=hc[2],hd=l(bo),he=l(hc[1]),gB=i(j,1,l(a_)),gC=gB?i(j,1,[3,hd,[0,a,a]]):gB,gD=gC?i(j,1,he):gC,hf=gD?i(j,0,[3,[5,[0,a,a],hd],he]):gD,hg=hf?k(function(a){var
-b=rm(0,0,Ff,a);if(b)var
+b=rn(0,0,Fg,a);if(b)var
 c=b;else{var
 d=c_(a);if(d)return aP(0,0,a);var
 c=d}return c},aY):hf,hh=hg?k(function(c){if(1===c[1]){var
 b=c[4];if(typeof
 b!=="number"&&0===b[0])return i(j,0,[3,[0,e,a],l(b[1])]);return 1}return 1},aY):hg;if(hh){var
-dj=aN(function(a){return J(rr(a))},aY);if(dj){var
+dj=aN(function(a){return J(rs(a))},aY);if(dj){var
 md=[0,c(2,a),a],bR=i(j,0,[3,l(bo),md]);if(bR)var
 dE=bR;else
 var
 mg=l(bo),dE=i(j,0,[3,[0,c(2,a),a],mg]);if(dE){var
-ma=x(function(a){if(c_(a))return Fb;var
-b=it(0,Fc,0,a);return x(function(b){var
-c=f6(j,Fd,b);return X(J(rr(a)),c)},b)},aY),mb=function(f){var
+ma=x(function(a){if(c_(a))return Fc;var
+b=it(0,Fd,0,a);return x(function(b){var
+c=f6(j,Fe,b);return X(J(rs(a)),c)},b)},aY),mb=function(f){var
 b=gA(ma,f[1]);if(b){var
 c=b[1],d=f[2];switch(d[0]){case
 0:return[0,[0,c,[0,d[1]]],0];case
-2:return[0,[0,c,[1,Fe,[0,[0,a,[0,e,[0,e,0]]],[0,[0,e,[0,a,[0,e,0]]],[0,[0,e,[0,e,[0,a,0]]],0]]],e]],0];default:return[0,[0,c,d],0]}}return b},mc=d(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,x(mb,a[1]),d,c,b]},mR),me=[0,dj[1],dj[2]],mf=rv(bR,a_,bo);return lB(0,ru(bR,b6,a_,bo),0,mf,0,me,mT,mS,mc)}return dE}var
+2:return[0,[0,c,[1,Ff,[0,[0,a,[0,e,[0,e,0]]],[0,[0,e,[0,a,[0,e,0]]],[0,[0,e,[0,e,[0,a,0]]],0]]],e]],0];default:return[0,[0,c,d],0]}}return b},mc=d(function(a){var
+b=a[4],c=a[3],d=a[2];return[0,x(mb,a[1]),d,c,b]},mR),me=[0,dj[1],dj[2]],mf=rw(bR,a_,bo);return lB(0,rv(bR,b6,a_,bo),0,mf,0,me,mT,mS,mc)}return dE}var
 hi=1}else
 var
 hi=hh;var
@@ -9351,14 +9356,14 @@ var
 hk=hb;return hk;case
 1:var
 mU=aZ[4],mV=aZ[3],mW=aZ[2],hl=dK(l(b6));if(hl){var
-dF=rq(aY);if(dF){var
+dF=rr(aY);if(dF){var
 bq=dF[1][2],mh=[0,c(2,a),a],bS=i(j,0,[3,l(bq),mh]),hm=i(j,1,l(a_)),hn=hm?i(j,1,[3,l(bq),[0,a,a]]):hm;if(hn)if(bS)var
 bT=bS;else
 var
 mj=l(bq),bT=i(j,0,[3,[0,c(2,a),a],mj]);else
 var
 bT=hn;if(bT){var
-mi=rv(bS,a_,bq);return lC(0,ru(bS,b6,a_,bq),0,mi,0,aY,mW,mV,mU)}var
+mi=rw(bS,a_,bq);return lC(0,rv(bS,b6,a_,bq),0,mi,0,aY,mW,mV,mU)}var
 ho=bT}else
 var
 ho=dF;var
@@ -9370,7 +9375,7 @@ d8=b[4],h9=b[1],d9=w[2];if(0===d9[0]){var
 h_=d9[3],C=is(h9,[0,b[2],b[3]],0,d8),mX=f(h_),d_=lt(lz(C),mX,h_);if(d_){var
 ib=d_[1];if(ib[2])return 0;var
 ii=iE(h9,0,d8,C),ij=ii?J(ag(c_,d8)):ii;if(ij){var
-ik=oW(j,C);if(ik){var
+ik=oX(j,C);if(ik){var
 mY=ib[1],io=d(iz,C[1]),V=iA(C[1]),ip=l(b[5]),az=d9[1],c7=hI(V,io,C[1]),ah=jY(V,io,C[1],0),kF=f(C[3]),kG=P(f(c7),kF),bP=[0,f(c7),kG],kH=j0(ah,V,bP,C[3]),kI=g(d(dr,ah),kH),gF=g(bK(fO(ah)),kI),gG=dm(gF),gH=dl(gG),a4=cT(gH),gI=C[2];if(0===gI[0]){var
 gJ=k(function(a){var
 b=n(e);return a3(q(h(a4,a),gH,b),a)},gF),gK=gJ?i(j,1,ip):gJ;if(gK){var
@@ -9398,12 +9403,12 @@ q=c;m=1;break;case
 t=f1(ah,V,j,b);return y(function(a){return[0,h(aC(a4),a),q]},t)}return 0}return l},kC),kE=d(function(a){return h(a4,dr(a))},ah),gE=d(function(a){return h(a4,a[2])},ah),k7=C[3],k8=bP[1],c6=function(aC,aB,aA){var
 l=aC,n=aB,g=aA;for(;;)switch(g[0]){case
 0:var
-v=g[1],$=m(f(v),y$),aa=$?k(function(b){var
+v=g[1],$=m(f(v),za),aa=$?k(function(b){var
 d=D(W(c(2,c(2,c(2,a)))),b);return d?D(b,c(2,c(2,c(2,a)))):d},v):$;if(aa){var
-ab=q2(az,k6,cX(0,n),v),j=g[2],w=cS(0,b_(az,ab,d(R,l)),gG),aD=d(R,l),M=function(a){return q1(q0(az,ab,aD,w,a))};if(typeof
+ab=q3(az,k6,cX(0,n),v),j=g[2],w=cS(0,b_(az,ab,d(R,l)),gG),aD=d(R,l),M=function(a){return q2(q1(az,ab,aD,w,a))};if(typeof
 j==="number")return 0===j?ag(function(b){var
 a=q(b,w,0);return a?D(a[1][2][2],e):a},gE):0;else{if(0===j[0]){var
-b=j[2],N=k(y9,b);if(N){var
+b=j[2],N=k(y_,b);if(N){var
 r=q(j[1],kD,0);if(r){var
 i=r[1];switch(i[0]){case
 0:var
@@ -9432,7 +9437,7 @@ h=L;break;default:if(b)var
 h=0;else
 var
 aw=i[1],h=[0,[0,0,d(function(a){return[1,[5,[0,a]]]},aw)]]}if(h){var
-O=h[1],ax=O[1],Q=k(function(a){return q1(q(a[2],w,0))},ax);if(Q)return k(M,O[2]);var
+O=h[1],ax=O[1],Q=k(function(a){return q2(q(a[2],w,0))},ax);if(Q)return k(M,O[2]);var
 S=Q}else
 var
 S=h;var
@@ -9455,13 +9460,13 @@ Z=0}else
 var
 Z=s;return Z}}return aa;case
 1:var
-ac=g[1],ad=q3(ac,n);if(ad){var
+ac=g[1],ad=q4(ac,n);if(ad){var
 ae=ds(ac,n),af=c6(l,ae[1],g[2]);if(af){var
 n=ae[2],g=g[3];continue}var
 ah=af}else
 var
 ah=ad;return ah;default:var
-ai=g[1],aj=q3(ai,l);if(aj){var
+ai=g[1],aj=q4(ai,l);if(aj){var
 ak=ds(ai,l),al=c6(ak[1],n,g[2]);if(al){var
 l=ak[2],g=g[3];continue}var
 am=al}else
@@ -9485,11 +9490,11 @@ iu=d_;return iu}return 0;case
 6:var
 iv=b[1];if(iv){var
 iw=iv[1],d$=w[2];if(0===d$[0]){var
-ea=ls(Fl,0,0,0,Fk,d$[3]);if(ea){var
+ea=ls(Fm,0,0,0,Fl,d$[3]);if(ea){var
 ix=gy(iw);if(ix){var
 mZ=ea[1],iB=ci(iw)[2],b7=d$[1],c3=dp(b7,e,iB);if(c3){var
 c4=dp(b7,e,[5,[0,a,a],iB]);if(c4){var
-kA=c3[1][1],gs=I(cR(b7),kA);if(gs)return qZ(b7,c4[1][1],mZ);var
+kA=c3[1][1],gs=I(cR(b7),kA);if(gs)return q0(b7,c4[1][1],mZ);var
 gt=gs}else
 var
 gt=c4;var
@@ -9500,40 +9505,40 @@ iI=ix}else
 var
 iI=ea;return iI}return 0}var
 eb=w[2];if(0===eb[0]){var
-ec=ls(Fn,0,0,0,Fm,eb[3]);return ec?qZ(eb[1],e,ec[1]):ec}return 0;default:var
+ec=ls(Fo,0,0,0,Fn,eb[3]);return ec?q0(eb[1],e,ec[1]):ec}return 0;default:var
 a$=b[1],iJ=w[2];if(2===iJ[0]){var
 iK=iJ[1],ed=lq(f(iK),iK);if(ed){var
 iL=ed[1];if(iL[2])return 0;var
-ee=iL[1],g5=ae(E_,f(a$)),g6=g5?ae(f(a$),dX):g5,g7=g6?qu(d(ap,a$)):g6,iM=g7?k(function(c){var
+ee=iL[1],g5=ae(E$,f(a$)),g6=g5?ae(f(a$),dX):g5,g7=g6?qv(d(ap,a$)):g6,iM=g7?k(function(c){var
 a=cV(l(c[2][1]));if(a){var
 b=cV(l(c[2][2]));if(b)return J(bp(b[1],a[1]));var
 d=b}else
 var
 d=a;return d},a$):g7;if(iM)var
-m0=iy(DX,ee),ef=rS(b[5],m0);else
+m0=iy(DY,ee),ef=rT(b[5],m0);else
 var
 ef=iM;if(ef)var
-m1=iy(DY,ee),ek=rS(b[6],m1);else
+m1=iy(DZ,ee),ek=rT(b[6],m1);else
 var
 ek=ef;if(ek){var
-lV=d(function(a){return[0,e,0]},a$);return rR(a$,b[2],b[3],b[4],lV,ee)}var
+lV=d(function(a){return[0,e,0]},a$);return rS(a$,b[2],b[3],b[4],lV,ee)}var
 iN=ek}else
 var
 iN=ed;return iN}return 0}}return br}var
-aa=[bd,Fq,ue(0)],rW=[bd,Fr,ue(0)];function
-Fo(l,b){var
-f=[0,o(Dj,ay(b[4])),0],g=[0,o(Dl,al([0,o(Dk,ay(b[3])),f])),0],a=b[2];switch(a[0]){case
+aa=[bd,Fr,uf(0)],rX=[bd,Fs,uf(0)];function
+Fp(l,b){var
+f=[0,o(Dk,ay(b[4])),0],g=[0,o(Dm,al([0,o(Dl,ay(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=U(Df,q_(a[1],a[2],a[3]));break;case
+c=U(Dg,q$(a[1],a[2],a[3]));break;case
 1:var
-c=U(Dg,q$(a[1],a[2],a[3],a[4]));break;default:var
-c=U(Dh,L(d(Da,a[1])))}var
-h=[0,o(Dm,c),g],i=1===b[2][0]?Ds:Dn,j=[0,o(Do,ay(i)),h],k=[0,o(Dp,BL(b[1])),j],e=aM(mu(Fp,io(al([0,o(Dr,ay(Dq)),k]),Di)),l);return e?Fg(b):e}function
+c=U(Dh,ra(a[1],a[2],a[3],a[4]));break;default:var
+c=U(Di,L(d(Db,a[1])))}var
+h=[0,o(Dn,c),g],i=1===b[2][0]?Dt:Do,j=[0,o(Dp,ay(i)),h],k=[0,o(Dq,BM(b[1])),j],e=aM(mv(Fq,io(al([0,o(Ds,ay(Dr)),k]),Dj)),l);return e?Fh(b):e}function
 am(a){if(0===a[0])return a[1];throw aa}function
 af(a){if(1===a[0])return a[1];throw aa}function
 ba(a){if(2===a[0])return a[1];throw aa}function
 gB(a){if(3===a[0])return a[1];throw aa}function
-bm(b,a){return mt(a,b)}function
+bm(b,a){return mu(a,b)}function
 z(c,b){var
 a=bm(c,b);if(a)return a[1];throw aa}function
 cG(b,a){var
@@ -9542,15 +9547,15 @@ eu(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],Ft]}throw aa}function
+2:return[0,a[1],Fu]}throw aa}function
 gC(e,d){var
-a=Z(e,af(d));if(a){var
+a=_(e,af(d));if(a){var
 b=a[2];if(b){var
 c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw aa}function
 iI(i){var
 f=fz(i),d=[0,0],e=ja(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=l8(f,c)-48|0;if(9<g>>>0)throw aa;switch(g){case
+a=d[1],g=l9(f,c)-48|0;if(9<g>>>0)throw aa;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -9572,21 +9577,21 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-gD(a){return mK(iI(a))}function
+gD(a){return mL(iI(a))}function
 fl(b){var
 a=gB(b);return 45===be(a,0)?W(gD(eF(a,1,aI(a)-1|0))):gD(a)}function
-rX(a){return eH(gD(gB(a)))}function
+rY(a){return eH(gD(gB(a)))}function
 db(b){var
 a=gB(b);if(!(2<aI(a))&&!(64<=i$(a)))return jm(gD(a));throw aa}function
 dc(c){var
 a=gB(c);if(6<aI(a))throw aa;function
 b(a){return 0<a?[0,b(a-1|0)]:0}return b(i$(a))}function
-rY(a){var
-b=97<=a?1:0,c=b?a<=tS?1:0:b;if(c)var
+rZ(a){var
+b=97<=a?1:0,c=b?a<=tT?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-rZ(y,b){var
+r0(y,b){var
 d=aI(b),a=[0,0];function
 c(e){var
 c=a[1]<d?1:0,f=c?be(b,a[1])===e?1:0:c;return f}function
@@ -9596,24 +9601,24 @@ m(b){a[1]++;var
 d=f(b+1|0);if(c(41)){a[1]++;return d}throw aa}function
 i(j){if(64<j)throw aa;if(c(45)){a[1]++;return[2,i(j+1|0)]}if(c(40))var
 e=m(j);else{var
-u=0;if((a[1]+5|0)<=d&&aM(eF(b,a[1],5),Fv)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&aM(eF(b,a[1],5),Fw)){a[1]=a[1]+4|0;var
 e=[5,m(j)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&rY(be(b,a[1]))){var
+v=0;if(a[1]<d&&rZ(be(b,a[1]))){var
 n=a[1];for(;;){if(a[1]<d){var
-w=0;if(!rY(be(b,a[1]))&&95!==be(b,a[1])&&(!(48<=be(b,a[1]))||57<be(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+w=0;if(!rZ(be(b,a[1]))&&95!==be(b,a[1])&&(!(48<=be(b,a[1]))||57<be(b,a[1])))w=1;if(!w){a[1]++;continue}}var
 e=[1,h(y,eF(b,n,a[1]-n|0))];break}}else
 v=1;if(v){var
-g=l(0),o=c(46),q=o?(a[1]++,[0,l(0)]):o,r=aM(g,Fw);if(r)var
+g=l(0),o=c(46),q=o?(a[1]++,[0,l(0)]):o,r=aM(g,Fx);if(r)var
 s=r;else
 var
 t=1<aI(g)?1:0,s=t?48===be(g,0)?1:0:t;if(s)throw aa;if(q){var
-k=q[1],x=0;if(aM(k,Fx)||48===be(k,aI(k)-1|0))x=1;else
+k=q[1],x=0;if(aM(k,Fy)||48===be(k,aI(k)-1|0))x=1;else
 var
 z=iI(k),e=[0,iI(g),z];if(x)throw aa}else
 var
 e=[0,iI(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(p(f,Fu)){if(!(2<aI(f))&&2<=i$(f)&&!(64<i$(f)))return[4,e,eH(gD(f))];throw aa}throw aa}return e}function
+f=l(0);if(p(f,Fv)){if(!(2<aI(f))&&2<=i$(f)&&!(64<i$(f)))return[4,e,eH(gD(f))];throw aa}throw aa}return e}function
 e(d){var
 b=i(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,i(d)];continue}if(c(47)){a[1]++;var
@@ -9623,55 +9628,55 @@ b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
 g=f(0);if(a[1]<d)throw aa;return g}function
-iJ(a){return rZ(function(a){return[0,a]},a)}function
+iJ(a){return r0(function(a){return[0,a]},a)}function
 lE(a){var
-b=ba(a);return rZ(function(a){return a},b)}function
+b=ba(a);return r0(function(a){return a},b)}function
 ab(a){return iJ(ba(a))}function
 ck(a){if(2===a[0])return[0,iJ(a[1])];var
-b=am(a),c=ab(z(b,Fy));return[1,ab(z(b,Fz)),c]}function
-at(a){throw[0,rW,bo(mu(FB,a),FA)]}function
+b=am(a),c=ab(z(b,Fz));return[1,ab(z(b,FA)),c]}function
+at(a){throw[0,rX,bo(mv(FC,a),FB)]}function
 lF(c){var
-a=ba(c);if(p(a,FC)){var
-b=p(a,FD);if(b)throw aa;return b}return 1}function
-FE(d){var
+a=ba(c);if(p(a,FD)){var
+b=p(a,FE);if(b)throw aa;return b}return 1}function
+FF(d){var
 b=am(d);function
 a(a){return gC(ck,z(b,a))}var
-c=ba(z(b,FF));if(p(c,FG)){if(p(c,FH)){if(p(c,FI))return at([0,FK,[0,c,FJ]]);var
-e=bm(b,FL),f=cG(function(a){return gC(ck,a)},e),g=a(FM);return[1,a(FN),g,f]}var
-h=lF(z(b,FO)),i=ck(z(b,FP)),j=a(FQ),k=a(FR);return[0,a(FS),k,j,i,h]}return[2,a(FT)]}function
-FU(d){var
+c=ba(z(b,FG));if(p(c,FH)){if(p(c,FI)){if(p(c,FJ))return at([0,FL,[0,c,FK]]);var
+e=bm(b,FM),f=cG(function(a){return gC(ck,a)},e),g=a(FN);return[1,a(FO),g,f]}var
+h=lF(z(b,FP)),i=ck(z(b,FQ)),j=a(FR),k=a(FS);return[0,a(FT),k,j,i,h]}return[2,a(FU)]}function
+FV(d){var
 a=am(d);if(a){var
-b=a[1];if(!p(b[1],FV)){var
-c=b[2];if(2===c[0]&&!p(c[1],FW))return 1}}return 0}function
-r0(e){var
+b=a[1];if(!p(b[1],FW)){var
+c=b[2];if(2===c[0]&&!p(c[1],FX))return 1}}return 0}function
+r1(e){var
 b=am(e);function
-a(a){return Z(ck,af(z(b,a)))}var
-c=ba(z(b,FX)),f=bm(b,FY),d=cG(function(a){return Z(ck,af(a))},f);if(p(c,FZ)){if(p(c,F0)){if(p(c,F1)){if(!p(c,F2)){var
-g=a(F5);return[1,a(F6),g,d]}}else
+a(a){return _(ck,af(z(b,a)))}var
+c=ba(z(b,FY)),f=bm(b,FZ),d=cG(function(a){return _(ck,af(a))},f);if(p(c,F0)){if(p(c,F1)){if(p(c,F2)){if(!p(c,F3)){var
+g=a(F6);return[1,a(F7),g,d]}}else
 if(!d){var
-h=lF(z(b,F7)),i=ck(z(b,F8)),j=a(F9),k=a(F_);return[0,a(F$),k,j,i,h]}}else
-if(!d)return[2,a(Ga)]}else
+h=lF(z(b,F8)),i=ck(z(b,F9)),j=a(F_),k=a(F$);return[0,a(Ga),k,j,i,h]}}else
+if(!d)return[2,a(Gb)]}else
 if(!d){var
-l=lF(z(b,Gb)),m=ck(z(b,Gc)),n=ck(z(b,Gd)),o=a(Ge),q=a(Gf),r=a(Gg);return[3,a(Gh),r,q,o,n,m,l]}return at([0,F4,[0,c,F3]])}function
-Gi(d){var
+l=lF(z(b,Gc)),m=ck(z(b,Gd)),n=ck(z(b,Ge)),o=a(Gf),q=a(Gg),r=a(Gh);return[3,a(Gi),r,q,o,n,m,l]}return at([0,F5,[0,c,F4]])}function
+Gj(d){var
 a=am(d);if(a){var
-b=a[1];if(!p(b[1],Gj)){var
-c=b[2];if(2===c[0]&&!p(c[1],Gk))return 1}}return 0}function
-Gl(d){var
+b=a[1];if(!p(b[1],Gk)){var
+c=b[2];if(2===c[0]&&!p(c[1],Gl))return 1}}return 0}function
+Gm(d){var
 a=am(d);if(a){var
-b=a[1];if(!p(b[1],Gm)){var
-c=b[2];if(2===c[0]&&!p(c[1],Gn))return 1}}return 0}function
-r1(d){var
+b=a[1];if(!p(b[1],Gn)){var
+c=b[2];if(2===c[0]&&!p(c[1],Go))return 1}}return 0}function
+r2(d){var
 a=am(d);if(a){var
-b=a[1];if(!p(b[1],Go)){var
-c=b[2];if(2===c[0]&&!p(c[1],Gp))return 1}}return 0}function
+b=a[1];if(!p(b[1],Gp)){var
+c=b[2];if(2===c[0]&&!p(c[1],Gq))return 1}}return 0}function
 dM(c,d){var
 a=af(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 e=h(c,b[1]);return[0,h(c,a[1]),e]}}throw aa}function
 ev(g,o){var
-h=g?g[1]:g,c=am(o),a=ba(z(c,Gq)),j=uq(a,Gr),f=0;if(0<=j)if(0<j)if(p(a,Gs))if(p(a,Gt))if(p(a,Gu))if(p(a,Gv))if(p(a,Gw))if(p(a,Gx))if(p(a,Gy)){var
-k=p(a,Gz);if(k)f=1;else
+h=g?g[1]:g,c=am(o),a=ba(z(c,Gr)),j=ur(a,Gs),f=0;if(0<=j)if(0<j)if(p(a,Gt))if(p(a,Gu))if(p(a,Gv))if(p(a,Gw))if(p(a,Gx))if(p(a,Gy))if(p(a,Gz)){var
+k=p(a,GA);if(k)f=1;else
 var
 b=k}else
 var
@@ -9691,7 +9696,7 @@ var
 b=13;else
 var
 b=2;else
-if(p(a,GU))if(p(a,GV))if(p(a,GW))if(p(a,GX))if(p(a,GY))if(p(a,GZ))if(p(a,G0))if(p(a,G1))f=1;else
+if(p(a,GV))if(p(a,GW))if(p(a,GX))if(p(a,GY))if(p(a,GZ))if(p(a,G0))if(p(a,G1))if(p(a,G2))f=1;else
 var
 b=1;else
 var
@@ -9709,10 +9714,10 @@ b=14;else
 f=1;else
 var
 b=12;var
-n=f?at([0,GB,[0,a,GA]]):b;function
-i(a){return z(c,GC)}var
-d=ba(z(c,GD)),l=p(d,GE);if(l)if(p(d,GF))if(p(d,GG))if(p(d,GH))var
-e=at([0,GJ,[0,d,GI]]);else
+n=f?at([0,GC,[0,a,GB]]):b;function
+i(a){return z(c,GD)}var
+d=ba(z(c,GE)),l=p(d,GF);if(l)if(p(d,GG))if(p(d,GH))if(p(d,GI))var
+e=at([0,GK,[0,d,GJ]]);else
 var
 m=dM(ab,i(0)),e=[2,m[1],m[2]];else
 var
@@ -9724,111 +9729,111 @@ e=l;function
 q(H){var
 a=am(H),b=0;switch(n){case
 6:if(a){var
-r=a[1];if(!p(r[1],GL)){var
+r=a[1];if(!p(r[1],GM)){var
 s=r[2];if(1===s[0]){var
 c=s[1],m=0;if(c&&!c[2])if(a[2])m=1;else{var
 e=c[1];b=1;m=1}if(!m&&!a[2]){var
 t=c;b=2}}}}break;case
 10:if(a){var
-u=a[1];if(!p(u[1],GM)){var
+u=a[1];if(!p(u[1],GN)){var
 v=u[2];if(1===v[0]){var
 f=v[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-w=g[1];if(!p(w[1],GN)){var
+w=g[1];if(!p(w[1],GO)){var
 x=w[2];if(1===x[0]){var
 i=x[1];if(i&&!i[2]&&!g[2]){var
 I=ab(i[1]);return[2,ab(f[1]),I]}}}}}}}}break;case
 12:if(a){var
-y=a[1];if(!p(y[1],GO)){var
+y=a[1];if(!p(y[1],GP)){var
 z=y[2];if(1===z[0]){var
 j=z[1];if(j&&!j[2]){var
 k=a[2],A=j[1];if(k){var
-B=k[1];if(!p(B[1],GP)){var
+B=k[1];if(!p(B[1],GQ)){var
 C=B[2];if(1===C[0]){var
 l=C[1];if(l&&!l[2]&&!k[2]&&h){var
 J=ab(l[1]);return[3,ab(A),J]}}}}else{var
 e=A;b=1}}}}}break;case
 16:if(a){var
-F=a[1];if(!p(F[1],GR)){var
+F=a[1];if(!p(F[1],GS)){var
 G=F[2];if(1===G[0]&&!a[2]){var
 t=G[1];b=2}}}break;case
 14:case
 15:if(a){var
-D=a[1];if(!p(D[1],GQ)){var
-E=D[2];if(1===E[0]&&!a[2])return[1,Z(ab,E[1])]}}break;case
+D=a[1];if(!p(D[1],GR)){var
+E=D[2];if(1===E[0]&&!a[2])return[1,_(ab,E[1])]}}break;case
 2:case
 8:if(a){var
-o=a[1];if(!p(o[1],GK)){var
+o=a[1];if(!p(o[1],GL)){var
 q=o[2];if(1===q[0]){var
 d=q[1];if(d&&!d[2]&&!a[2]){var
 e=d[1];b=1}}}}break}switch(b){case
 0:throw aa;case
-1:return[0,ab(e)];default:return[1,Z(ab,t)]}}var
-r=cG(q,bm(c,GS));return[0,n,cG(dc,bm(c,GT)),r,e]}function
-r2(c){var
-d=ev(G4,c),e=d[1];if(!(9<=e))switch(e){case
+1:return[0,ab(e)];default:return[1,_(ab,t)]}}var
+r=cG(q,bm(c,GT));return[0,n,cG(dc,bm(c,GU)),r,e]}function
+r3(c){var
+d=ev(G5,c),e=d[1];if(!(9<=e))switch(e){case
 2:case
 6:case
 8:return d}var
-a=ev(G2,c),b=a[1];if(2!==b&&!(4<=b))return a;return at(G3)}function
-r3(a){var
-b=ev(G5,a);return 11===b[1]?b:r2(a)}function
-G6(a){var
-b=ev(G7,a);return 12===b[1]?b:r3(a)}function
-G8(a){var
-b=ev(G9,a),c=b[1];if(9<=c)switch(c-9|0){case
+a=ev(G3,c),b=a[1];if(2!==b&&!(4<=b))return a;return at(G4)}function
+r4(a){var
+b=ev(G6,a);return 11===b[1]?b:r3(a)}function
+G7(a){var
+b=ev(G8,a);return 12===b[1]?b:r4(a)}function
+G9(a){var
+b=ev(G_,a),c=b[1];if(9<=c)switch(c-9|0){case
 2:case
 4:case
-7:break;default:return b}return r3(a)}function
+7:break;default:return b}return r4(a)}function
 lG(c){var
-d=ev(G_,c),a=d[1];if(4<=a){var
+d=ev(G$,c),a=d[1];if(4<=a){var
 b=0;if(6<=a)switch(a-6|0){case
 4:case
 5:case
 6:case
 7:case
 10:b=1;break}else
-b=1;if(b)return d}return r2(c)}function
+b=1;if(b)return d}return r3(c)}function
 lH(b){var
-a=am(b[2]);if(p(b[1],Hf)){var
-c=dM(ab,z(a,Hg)),d=dM(ab,z(a,Hh)),e=d[2],f=d[1],g=ab(z(a,Hi));return[1,c[1],c[2],g,f,e]}var
-h=Z(ab,af(z(a,Hj)));return[0,Z(ab,af(z(a,Hk))),h]}function
-Hl(f){var
+a=am(b[2]);if(p(b[1],Hg)){var
+c=dM(ab,z(a,Hh)),d=dM(ab,z(a,Hi)),e=d[2],f=d[1],g=ab(z(a,Hj));return[1,c[1],c[2],g,f,e]}var
+h=_(ab,af(z(a,Hk)));return[0,_(ab,af(z(a,Hl))),h]}function
+Hm(f){var
 a=am(f);function
 d(b){return ab(z(a,b))}function
 c(b){return gC(ab,z(a,b))}var
-b=ba(z(a,Hm));if(p(b,Hn)){if(!p(b,Ho)){var
-j=z(a,Hu),e=dM(function(a){return a},j),k=bm(a,Hv),l=cG(function(a){return c(Hw)},k),m=iJ(ba(e[2])),n=iJ(ba(e[1])),o=d(Hx);return[0,dc(z(a,Hy)),o,n,m,l]}if(p(b,Hp))throw aa}var
-g=d(Hq),h=c(Hr),i=c(Hs);return[1,aM(b,Ht),i,h,g]}function
+b=ba(z(a,Hn));if(p(b,Ho)){if(!p(b,Hp)){var
+j=z(a,Hv),e=dM(function(a){return a},j),k=bm(a,Hw),l=cG(function(a){return c(Hx)},k),m=iJ(ba(e[2])),n=iJ(ba(e[1])),o=d(Hy);return[0,dc(z(a,Hz)),o,n,m,l]}if(p(b,Hq))throw aa}var
+g=d(Hr),h=c(Hs),i=c(Ht);return[1,aM(b,Hu),i,h,g]}function
 lI(aG){var
-j=eu(aG),k=j[1];if(p(k,Hz)){if(p(k,HA)){if(p(k,HB)){if(p(k,HC))return at([0,HE,[0,k,HD]]);var
-C=z(am(j[2]),HF),an=0;if(2===C[0]){var
-R=p(C[1],HG);if(!R){var
+j=eu(aG),k=j[1];if(p(k,HA)){if(p(k,HB)){if(p(k,HC)){if(p(k,HD))return at([0,HF,[0,k,HE]]);var
+C=z(am(j[2]),HG),an=0;if(2===C[0]){var
+R=p(C[1],HH);if(!R){var
 Q=R;an=1}}if(!an)var
 Q=[0,ck(C)];return[6,Q]}var
-S=am(j[2]),l=lI([0,[0,[0,HI,z(S,HH)],0]]);if(0===l[0]){var
+S=am(j[2]),l=lI([0,[0,[0,HJ,z(S,HI)],0]]);if(0===l[0]){var
 D=l[2];if(0===D[0]&&!l[3]){var
 T=l[4];if(!aU(cj,T)){var
-aH=ab(z(S,HK));return[5,l[1],D[1],D[2],T,aH]}}}return at(HJ)}var
-a=am(j[2]),E=bm(a,HL),F=E?Z(Hl,af(E[1])):E,s=function(b){var
-a=0!==F?1:0;return a?at(HM):a},m=eu(z(a,HN)),c=eu(z(a,HO)),d=m[1];if(p(d,HP)&&p(d,HQ)&&p(d,HR)){if(0===bm(a,HS)){if(p(d,HT)){var
-ao=0;if(p(d,HU)){if(!p(d,HV)){var
-U=c[1],ap=0;if(p(U,HY)&&p(U,HZ)){ao=1;ap=1}if(!ap){var
-n=af(m[2]),aI=af(z(a,H2)),G=Z(function(a){return ev(0,a)},aI),aJ=aU(function(a){switch(a[1]){case
-5:return 1-eE(Gi,n);case
-11:return aU(Gl,n);case
+aH=ab(z(S,HL));return[5,l[1],D[1],D[2],T,aH]}}}return at(HK)}var
+a=am(j[2]),E=bm(a,HM),F=E?_(Hm,af(E[1])):E,s=function(b){var
+a=0!==F?1:0;return a?at(HN):a},m=eu(z(a,HO)),c=eu(z(a,HP)),d=m[1];if(p(d,HQ)&&p(d,HR)&&p(d,HS)){if(0===bm(a,HT)){if(p(d,HU)){var
+ao=0;if(p(d,HV)){if(!p(d,HW)){var
+U=c[1],ap=0;if(p(U,HZ)&&p(U,H0)){ao=1;ap=1}if(!ap){var
+n=af(m[2]),aI=af(z(a,H3)),G=_(function(a){return ev(0,a)},aI),aJ=aU(function(a){switch(a[1]){case
+5:return 1-eE(Gj,n);case
+11:return aU(Gm,n);case
 7:case
 9:case
 10:case
-12:return 1;default:return 0}},G);if(!aU(FU,n)){var
+12:return 1;default:return 0}},G);if(!aU(FV,n)){var
 aq=0;if(!aU(cj,G)||aJ)aq=1;if(aq){var
-aN=Z(FE,n),i=am(c[2]);if(p(c[1],G$))var
-O=dM(ab,z(i,Ha)),P=dM(ab,z(i,Hb)),aB=P[2],aC=P[1],aD=ab(z(i,Hc)),V=[1,O[1],O[2],aD,aC,aB];else
+aN=_(FF,n),i=am(c[2]);if(p(c[1],Ha))var
+O=dM(ab,z(i,Hb)),P=dM(ab,z(i,Hc)),aB=P[2],aC=P[1],aD=ab(z(i,Hd)),V=[1,O[1],O[2],aD,aC,aB];else
 var
-aF=gC(ab,z(i,Hd)),V=[0,gC(ab,z(i,He)),aF];return[0,aN,V,F,G]}}s(0);var
-aK=Z(lG,af(z(a,H3))),aL=lH(c);return[1,0,Z(r0,n),0,aL,0,aK]}}}else
-if(!p(c[1],H4)){s(0);var
-W=Z(lG,af(z(a,H5))),y=0,g=W;for(;;){if(g){var
+aF=gC(ab,z(i,He)),V=[0,gC(ab,z(i,Hf)),aF];return[0,aN,V,F,G]}}s(0);var
+aK=_(lG,af(z(a,H4))),aL=lH(c);return[1,0,_(r1,n),0,aL,0,aK]}}}else
+if(!p(c[1],H5)){s(0);var
+W=_(lG,af(z(a,H6))),y=0,g=W;for(;;){if(g){var
 L=g[2],M=g[1];if(0===M[1]){var
 y=[0,M,y],g=L;continue}var
 g=L;continue}var
@@ -9844,82 +9849,82 @@ J=1;if(!J)e=1}else
 e=1;break;case
 1:var
 I=q[2];if(I){var
-K=0,_=I[1][4];if(typeof
-_!=="number"&&0===_[0])if(I[2]){e=1;K=1}else
+K=0,Z=I[1][4];if(typeof
+Z!=="number"&&0===Z[0])if(I[2]){e=1;K=1}else
 K=1;if(!K)e=1}else
-e=1;break;default:e=1}if(!e)ar=1}if(!ar)at(H6);var
-aO=ab(z(am(c[2]),H7));return[4,ab(z(am(m[2]),H8)),aO,W]}}if(!ao)return at([0,HX,[0,d,HW]])}else
-if(!p(c[1],H9)){s(0);var
+e=1;break;default:e=1}if(!e)ar=1}if(!ar)at(H7);var
+aO=ab(z(am(c[2]),H8));return[4,ab(z(am(m[2]),H9)),aO,W]}}if(!ao)return at([0,HY,[0,d,HX]])}else
+if(!p(c[1],H_)){s(0);var
 t=am(m[2]),$=am(c[2]),ac=function(c,a){var
-b=af(a);return Z(function(d){var
+b=af(a);return _(function(d){var
 a=af(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 e=h(c,b[1]);return[0,ba(a[1]),e]}}throw aa},b)},aP=function(d){var
 a=am(d);if(a){var
-b=a[1],c=b[1];if(p(c,H_)){if(!p(c,H$)&&!a[2])return[0,Z(lE,af(b[2]))]}else
-if(!a[2])return[1,lE(b[2])]}throw aa},ad=ac(lE,z(t,Ia)),ae=Z(aP,af(z(t,Ib))),A=0,r=ae;for(;;){if(r){var
-B=r[1],au=r[2],av=0===B[0]?B[1]:[0,B[1],0],A=mr(av,A),r=au;continue}var
+b=a[1],c=b[1];if(p(c,H$)){if(!p(c,Ia)&&!a[2])return[0,_(lE,af(b[2]))]}else
+if(!a[2])return[1,lE(b[2])]}throw aa},ad=ac(lE,z(t,Ib)),ae=_(aP,af(z(t,Ic))),A=0,r=ae;for(;;){if(r){var
+B=r[1],au=r[2],av=0===B[0]?B[1]:[0,B[1],0],A=ms(av,A),r=au;continue}var
 aw=jf(A),f=function(b,a){switch(a[0]){case
 0:var
 c=1;break;case
 1:var
-d=mt(a[1],b),e=1,g=d?d[1]:e,c=g;break;case
+d=mu(a[1],b),e=1,g=d?d[1]:e,c=g;break;case
 3:var
 h=f(b,a[3]),c=(1+f(b,a[2])|0)+h|0;break;case
 4:var
-i=je(a[2]),c=mf(f(b,a[1]),i);break;default:var
-c=1+f(b,a[1])|0}return mo(32769,c)},ax=0,N=ms(function(b,a){var
-c=f(b,a[2]);return[0,[0,a[1],c],b]},ax,ad),ay=Z(function(a){return f(N,a)},aw),az=mp(Z(aE,N),ay),aA=0;if(32768<ms(function(b,a){return b+a|0},aA,az))at([0,Id,[0,b("32768"),Ic]]);var
-aQ=Z(G6,af(z(a,Ie))),aR=Z(ab,af(z($,If))),aS=Z(ab,af(z($,Ig))),aT=ac(ck,z(t,Ih));return[3,Z(ba,af(z(t,Ii))),aT,ad,ae,aS,aR,aQ]}}return at([0,H1,[0,c[1],H0]])}throw aa}var
-ag=am(m[2]),u=cG(ab,bm(ag,Ij)),aV=function(f){var
-a=eu(f),b=a[1];if(p(b,Ik)){if(p(b,Il)){if(p(b,Im)){if(p(b,In))throw aa;var
-d=a[2],g=ab(z(am(d),Io));return[3,ab(z(am(d),Ip)),g]}var
-h=a[2],c=function(a){return dM(ab,z(am(h),a))},i=c(Iq),j=c(Ir);return[1,c(Is),j,i]}var
-e=dM(ab,a[2]);return[0,e[1],e[2]]}return[2,ab(a[2])]},v=cG(aV,bm(a,It)),ah=p(d,Iu),ai=ah?p(d,Iv)?2:1:ah,w=af(z(ag,Iw));if(u&&v&&eE(r1,w)){var
+i=je(a[2]),c=mg(f(b,a[1]),i);break;default:var
+c=1+f(b,a[1])|0}return mp(32769,c)},ax=0,N=mt(function(b,a){var
+c=f(b,a[2]);return[0,[0,a[1],c],b]},ax,ad),ay=_(function(a){return f(N,a)},aw),az=mq(_(aE,N),ay),aA=0;if(32768<mt(function(b,a){return b+a|0},aA,az))at([0,Ie,[0,b("32768"),Id]]);var
+aQ=_(G7,af(z(a,If))),aR=_(ab,af(z($,Ig))),aS=_(ab,af(z($,Ih))),aT=ac(ck,z(t,Ii));return[3,_(ba,af(z(t,Ij))),aT,ad,ae,aS,aR,aQ]}}return at([0,H2,[0,c[1],H1]])}throw aa}var
+ag=am(m[2]),u=cG(ab,bm(ag,Ik)),aV=function(f){var
+a=eu(f),b=a[1];if(p(b,Il)){if(p(b,Im)){if(p(b,In)){if(p(b,Io))throw aa;var
+d=a[2],g=ab(z(am(d),Ip));return[3,ab(z(am(d),Iq)),g]}var
+h=a[2],c=function(a){return dM(ab,z(am(h),a))},i=c(Ir),j=c(Is);return[1,c(It),j,i]}var
+e=dM(ab,a[2]);return[0,e[1],e[2]]}return[2,ab(a[2])]},v=cG(aV,bm(a,Iu)),ah=p(d,Iv),ai=ah?p(d,Iw)?2:1:ah,w=af(z(ag,Ix));if(u&&v&&eE(r2,w)){var
 aW=function(c){var
 a=am(c);function
-b(b){return Z(ck,af(z(a,b)))}if(0!==bm(a,Ix))at(Iy);var
-d=b(Iz);return[0,b(IA),d]},aX=Z(G8,af(z(a,IB))),aY=v[1],aZ=lH(c),a0=u[1];return[2,ai,Z(aW,w),a0,aZ,aY,F,aX]}s(0);var
-as=0;if(!u&&aM(d,IE)){var
+b(b){return _(ck,af(z(a,b)))}if(0!==bm(a,Iy))at(Iz);var
+d=b(IA);return[0,b(IB),d]},aX=_(G9,af(z(a,IC))),aY=v[1],aZ=lH(c),a0=u[1];return[2,ai,_(aW,w),a0,aZ,aY,F,aX]}s(0);var
+as=0;if(!u&&aM(d,IF)){var
 aj=1;as=1}if(!as)var
 aj=[0,ai];var
-ak=0!==v?1:0,a1=ak?aU(r1,w):ak;if(a1)at(IC);var
-a2=Z(lG,af(z(a,ID))),a3=lH(c);return[1,aj,Z(r0,w),u,a3,v,a2]}var
+ak=0!==v?1:0,a1=ak?aU(r2,w):ak;if(a1)at(ID);var
+a2=_(lG,af(z(a,IE))),a3=lH(c);return[1,aj,_(r1,w),u,a3,v,a2]}var
 x=am(j[2]);function
 a4(b){var
-a=am(b),c=ab(z(a,IF)),d=[0,ab(z(a,IG)),c];return[0,ba(z(a,IH)),d]}var
-o=lI([0,[0,[0,IJ,z(x,II)],0]]);if(0===o[0]&&!o[3]){var
+a=am(b),c=ab(z(a,IG)),d=[0,ab(z(a,IH)),c];return[0,ba(z(a,II)),d]}var
+o=lI([0,[0,[0,IK,z(x,IJ)],0]]);if(0===o[0]&&!o[3]){var
 al=o[4];if(!aU(cj,al)){var
-a5=ab(z(x,IL)),a6=ab(z(x,IM)),a7=o[2],a8=o[1];return[7,Z(a4,af(z(x,IN))),a8,a7,al,a6,a5]}}return at(IK)}function
-ew(a){return Z(fl,af(a))}function
+a5=ab(z(x,IM)),a6=ab(z(x,IN)),a7=o[2],a8=o[1];return[7,_(a4,af(z(x,IO))),a8,a7,al,a6,a5]}}return at(IL)}function
+ew(a){return _(fl,af(a))}function
 iK(c,b){var
 a=ew(b);if(cN(a)!==c)throw aa;return a}function
-r4(a,d){var
-b=am(d),e=af(z(b,IQ)),f=a[2],c=Z(function(a){return iK(f,a)},e),g=a[1];if(cN(c)!==g)throw aa;return[0,c,db(z(b,IR))]}function
+r5(a,d){var
+b=am(d),e=af(z(b,IR)),f=a[2],c=_(function(a){return iK(f,a)},e),g=a[1];if(cN(c)!==g)throw aa;return[0,c,db(z(b,IS))]}function
 dd(aC,i){var
 aA=0;if(0===i[0]){var
 q=i[1];if(q){var
-_=q[1];if(!p(_[1],IS)){var
-ao=_[2];if(0===ao[0]){var
+Z=q[1];if(!p(Z[1],IT)){var
+ao=Z[2];if(0===ao[0]){var
 Q=ao[1];if(Q){var
-aq=Q[1];if(!p(aq[1],Jm)){var
+aq=Q[1];if(!p(aq[1],Jn)){var
 ar=aq[2];if(1===ar[0]){var
 R=ar[1];if(R){var
 as=R[1];if(1===as[0]){var
 au=as[1];if(au&&!au[2]&&!R[2]){var
 av=Q[2];if(av&&!av[2]&&!q[2]){var
-g=Jn;aA=1}}}}}}}}}}}if(!aA)var
+g=Jo;aA=1}}}}}}}}}}}if(!aA)var
 g=aC;var
 r=g[2];switch(i[0]){case
 0:var
 c=i[1];if(c){var
-d=c[1],a=d[1],$=uq(a,IT),b=0;if(0<=$)if(0<$)if(p(a,IU)){var
-e=0;if(p(a,IV)&&p(a,IW)&&p(a,IX))if(p(a,IY))if(p(a,IZ))e=1;else{var
+d=c[1],a=d[1],$=ur(a,IU),b=0;if(0<=$)if(0<$)if(p(a,IV)){var
+e=0;if(p(a,IW)&&p(a,IX)&&p(a,IY))if(p(a,IZ))if(p(a,I0))e=1;else{var
 ab=d[2];if(1===ab[0]){var
 s=ab[1];if(s){var
 t=s[2];if(t){var
 u=t[2];if(u&&!u[2]){if(!c[2]){var
-aD=Z(ew,af(u[1])),aF=ba(t[1]);return[8,dd(g,s[1]),aF,aD]}b=1;e=1}else
+aD=_(ew,af(u[1])),aF=ba(t[1]);return[8,dd(g,s[1]),aF,aD]}b=1;e=1}else
 e=1}else
 e=1}else
 e=1}else
@@ -9928,7 +9933,7 @@ ac=d[2];if(1===ac[0]){var
 v=ac[1];if(v){var
 w=v[2];if(w){var
 x=w[2];if(x&&!x[2]){if(!c[2]){var
-aG=db(x[1]),aH=Z(ew,af(w[1]));return[11,dd(g,v[1]),aH,aG]}b=1;e=1}else
+aG=db(x[1]),aH=_(ew,af(w[1]));return[11,dd(g,v[1]),aH,aG]}b=1;e=1}else
 e=1}else
 e=1}else
 e=1}else
@@ -9949,43 +9954,43 @@ m=l[1],b=m;for(;;){var
 n=0;switch(b[0]){case
 0:var
 c=b[1];if(c){var
-q=c[1],a=q[1];if(p(a,I2)){var
-y=0;if(p(a,I3)&&p(a,I4)&&p(a,I5)&&p(a,I6))y=1;if(!y&&!c[2])n=1}else{var
+q=c[1],a=q[1];if(p(a,I3)){var
+y=0;if(p(a,I4)&&p(a,I5)&&p(a,I6)&&p(a,I7))y=1;if(!y&&!c[2])n=1}else{var
 r=q[2];if(1===r[0]){var
 s=r[1];if(s&&!c[2]){var
 b=s[1];continue}}}}break;case
 2:var
-t=b[1];if(!p(t,I7)||!p(t,I8))n=1;break}var
+t=b[1];if(!p(t,I8)||!p(t,I9))n=1;break}var
 z=n?1:0;if(z){var
 A=dd(g,m),B=db(k[1]),C=fl(j[1]),d=m,D=[0,[0,[0,ew(i[1]),C],B],A];for(;;){var
 o=0;switch(d[0]){case
 0:var
 e=d[1];if(e){var
-u=e[1],h=u[1],f=0;if(p(h,I9))if(p(h,I_)){if(p(h,I$))f=1}else
+u=e[1],h=u[1],f=0;if(p(h,I_))if(p(h,I$)){if(p(h,Ja))f=1}else
 if(e[2])f=1;else{o=1;f=1}if(!f){var
 v=u[2];if(1===v[0]){var
 w=v[1];if(w&&!e[2]){var
 d=w[1];continue}}}}break;case
-2:if(!p(d[1],Ja))o=1;break}var
-E=o?1:0;return[0,E,D]}}return at(Jb)}}}}}}throw aa},E=Z(aL,ag[1]),ah=aU(ap,E),aM=ah?1-eE(ap,E):ah;if(aM)at(Jc);return[9,Z(aE,E)]}b=1}}else
-if(p(a,Jd))if(p(a,Je))if(p(a,Jf))if(p(a,Jg))if(p(a,Jh)){if(!p(a,Ji)){if(!c[2]){var
-ai=am(d[2]),aN=af(z(ai,Jj)),aO=r+1|0,aj=Z(function(a){return iK(aO,a)},aN);if(3===cN(aj))return[1,Jl,aj,db(z(ai,Jk))];throw aa}b=1}}else{if(!c[2]){var
-W=ba(d[2]),X=p(W,IO);if(X){if(p(W,IP))throw aa;var
+2:if(!p(d[1],Jb))o=1;break}var
+E=o?1:0;return[0,E,D]}}return at(Jc)}}}}}}throw aa},E=_(aL,ag[1]),ah=aU(ap,E),aM=ah?1-eE(ap,E):ah;if(aM)at(Jd);return[9,_(aE,E)]}b=1}}else
+if(p(a,Je))if(p(a,Jf))if(p(a,Jg))if(p(a,Jh))if(p(a,Ji)){if(!p(a,Jj)){if(!c[2]){var
+ai=am(d[2]),aN=af(z(ai,Jk)),aO=r+1|0,aj=_(function(a){return iK(aO,a)},aN);if(3===cN(aj))return[1,Jm,aj,db(z(ai,Jl))];throw aa}b=1}}else{if(!c[2]){var
+W=ba(d[2]),X=p(W,IP);if(X){if(p(W,IQ))throw aa;var
 Y=1}else
 var
 Y=X;return[2,Y]}b=1}else{if(!c[2]){var
 k=d[2],o=0;switch(k[0]){case
 0:var
 l=k[1];if(l){var
-aw=l[1],j=aw[1],f=0;if(p(j,Jo)&&p(j,Jp)&&p(j,Jq)&&p(j,Jr))if(p(j,Js))f=1;else{var
+aw=l[1],j=aw[1],f=0;if(p(j,Jp)&&p(j,Jq)&&p(j,Jr)&&p(j,Js))if(p(j,Jt))f=1;else{var
 ax=aw[2];if(1===ax[0]){var
 S=ax[1];if(S){var
 m=S[1],h=0;switch(m[0]){case
 0:var
 T=m[1];if(T){var
-n=T[1][1],aB=0;if(p(n,Ju)&&p(n,Jv)&&p(n,Jw)&&p(n,Jx)){f=1;h=1;aB=1}if(!aB&&T[2]){f=1;h=1}}else{f=1;h=1}break;case
+n=T[1][1],aB=0;if(p(n,Jv)&&p(n,Jw)&&p(n,Jx)&&p(n,Jy)){f=1;h=1;aB=1}if(!aB&&T[2]){f=1;h=1}}else{f=1;h=1}break;case
 2:var
-ay=m[1];if(p(ay,Jy)&&p(ay,Jz)){f=1;h=1}break;default:f=1;h=1}if(!h){var
+ay=m[1];if(p(ay,Jz)&&p(ay,JA)){f=1;h=1}break;default:f=1;h=1}if(!h){var
 U=S[2];if(U){var
 V=U[2];if(V&&!(V[2]||l[2])){var
 aZ=db(V[1]),a0=fl(U[1]),F=[6,dd(g,m),a0,aZ];o=2;f=1}else
@@ -9994,9 +9999,9 @@ f=1}}else
 f=1}else
 f=1}if(!f&&!l[2])o=1}break;case
 2:var
-az=k[1];if(!p(az,JA)||!p(az,JB))o=1;break}switch(o){case
+az=k[1];if(!p(az,JB)||!p(az,JC))o=1;break}switch(o){case
 0:var
-F=at(Jt);break;case
+F=at(Ju);break;case
 1:var
 F=dd(g,k);break}return[7,F]}b=1}else{var
 ak=d[2];if(1===ak[0]){var
@@ -10009,21 +10014,21 @@ J=I[2];if(J){var
 K=J[2];if(K){var
 L=K[2];if(L){var
 M=L[2];if(M&&!M[2]){if(!c[2]){var
-aR=dd(g,M[1]),aS=dd(g,L[1]),aT=Z(ew,af(K[1])),aV=db(J[1]);return[10,iK(r+1|0,I[1]),aV,aT,aS,aR]}b=1}}}}}}}else{var
+aR=dd(g,M[1]),aS=dd(g,L[1]),aT=_(ew,af(K[1])),aV=db(J[1]);return[10,iK(r+1|0,I[1]),aV,aT,aS,aR]}b=1}}}}}}}else{var
 an=d[2];if(1===an[0]){var
 N=an[1];if(N){var
 O=N[2];if(O){var
 P=O[2];if(P&&!P[2])if(c[2])b=1;else{var
 aW=P[1],aX=O[1],aY=N[1],A=aY,y=function(b,a){var
 c=db(aW);return[4,b,a,fl(aX),c]};b=2}}}}}switch(b){case
-0:if(!c[2])return at([0,I1,[0,a,I0]]);break;case
+0:if(!c[2])return at([0,I2,[0,a,I1]]);break;case
 1:break;default:var
-ad=r4(g,A);return y(ad[1],ad[2])}}break;case
+ad=r5(g,A);return y(ad[1],ad[2])}}break;case
 2:return[0,i[1]]}throw aa}function
-r5(n){var
-b=eu(n),a=b[1];if(p(a,JE))if(p(a,JF)){var
-h=p(a,JG);if(!h)return h;if(p(a,JH)){if(!p(a,JI)){var
-c=am(b[2]),i=function(a){return Z(ab,af(z(c,a)))},j=am(z(c,JM)),o=db(z(j,JN)),q=Z(ew,af(z(j,JO))),r=i(JP),s=i(JQ);return[3,dc(z(c,JR)),s,r,q,o]}if(!p(a,JJ))return[2,Z(ab,af(b[2]))]}else{var
+r6(n){var
+b=eu(n),a=b[1];if(p(a,JF))if(p(a,JG)){var
+h=p(a,JH);if(!h)return h;if(p(a,JI)){if(!p(a,JJ)){var
+c=am(b[2]),i=function(a){return _(ab,af(z(c,a)))},j=am(z(c,JN)),o=db(z(j,JO)),q=_(ew,af(z(j,JP))),r=i(JQ),s=i(JR);return[3,dc(z(c,JS)),s,r,q,o]}if(!p(a,JK))return[2,_(ab,af(b[2]))]}else{var
 k=b[2];if(1===k[0]){var
 d=k[1];if(d){var
 e=d[2];if(e&&!e[2]){var
@@ -10031,30 +10036,30 @@ t=dc(e[1]);return[1,dc(d[1]),t]}}}}}else{var
 l=b[2];if(1===l[0]){var
 f=l[1];if(f){var
 g=f[2];if(g&&!g[2]){var
-u=Z(ew,af(g[1]));return[0,dc(f[1]),u]}}}}else{var
-m=b[2];if(1===m[0]&&!m[1])return 1}return at([0,JL,[0,a,JK]])}function
-r6(f,b){var
-a=am(b),c=af(z(a,JW)),d=Z(function(g){var
+u=_(ew,af(g[1]));return[0,dc(f[1]),u]}}}}else{var
+m=b[2];if(1===m[0]&&!m[1])return 1}return at([0,JM,[0,a,JL]])}function
+r7(f,b){var
+a=am(b),c=af(z(a,JX)),d=_(function(g){var
 a=am(g);function
 b(d,c){var
-b=bm(a,c);return b?Z(d,af(b[1])):b}var
-c=b(fl,JS),d=cG(r5,bm(a,JT)),e=cG(dc,bm(a,JU));return[0,b(function(h){var
+b=bm(a,c);return b?_(d,af(b[1])):b}var
+c=b(fl,JT),d=cG(r6,bm(a,JU)),e=cG(dc,bm(a,JV));return[0,b(function(h){var
 b=af(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!p(c[1],JC)){if(!a[2]){if(p(gB(e),JD))throw aa;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!p(c[1],JD)){if(!a[2]){if(p(gB(e),JE))throw aa;d=1}}else
 d=1;if(d&&!a[2]){var
-g=dd(f,c);return[0,dc(e),g]}}}throw aa},JV),e,d,c]},c),e=bm(a,JX),g=cG(function(a){return r4(f,a)},e);return[0,rX(z(a,JY)),g,d]}function
-r7(c){var
-a=am(c),b=bm(a,JZ),d=b?Z(ab,af(b[1])):b,e=r5(z(a,J0)),f=Z(ab,af(z(a,J1)));return[0,rX(z(a,J2)),f,d,e]}function
-Ka(c){var
+g=dd(f,c);return[0,dc(e),g]}}}throw aa},JW),e,d,c]},c),e=bm(a,JY),g=cG(function(a){return r5(f,a)},e);return[0,rY(z(a,JZ)),g,d]}function
+r8(c){var
+a=am(c),b=bm(a,J0),d=b?_(ab,af(b[1])):b,e=r6(z(a,J1)),f=_(ab,af(z(a,J2)));return[0,rY(z(a,J3)),f,d,e]}function
+Kb(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-Kb(b){var
-a=b[3];if(a&&1===a[1][0])return 1;return 0}function
 Kc(b){var
-c=b[1],a=b[4];if(!(1<c+s0>>>0)&&typeof
+a=b[3];if(a&&1===a[1][0])return 1;return 0}function
+Kd(b){var
+c=b[1],a=b[4];if(!(1<c+s1>>>0)&&typeof
 a!=="number"&&1===a[0])return 1-h5(l(a[1]));return 10===c?1:0}function
-Kg(f){var
+Kh(f){var
 i=aI(f),b=[0,0];function
 j(a){if(b[1]<i)return be(f,b[1]);throw aa}function
 k(a){if(j(0)===a){b[1]++;return 0}throw aa}function
@@ -10077,10 +10082,10 @@ h=125;return[0,D(function(b){var
 a=C(0);k(58);return[0,a,r(c+1|0,0)]},h)]}if(!(58<=a))d=1}else{if(34===a)return[2,C(0)];if(45===a)d=1}if(d){var
 i=b[1];b[1]++;var
 e=B(i,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c});if(p(e,Fs))return[3,e];throw aa}throw aa}var
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c});if(p(e,Ft))return[3,e];throw aa}throw aa}var
 R=r(0,0),E=b[1]<i?1:0,S=E?10===be(f,b[1])?1:0:E;if(S)b[1]++;if(b[1]<i)throw aa;var
-o=am(R);if(p(ba(z(o,Kh)),Ki))throw aa;var
-a=lI(z(o,Kj)),w=0;switch(a[0]){case
+o=am(R);if(p(ba(z(o,Ki)),Kj))throw aa;var
+a=lI(z(o,Kk)),w=0;switch(a[0]){case
 1:var
 u=a[1],x=0;if(typeof
 u==="number")if(u)var
@@ -10100,20 +10105,20 @@ F=a[2];w=1;break;case
 0:case
 5:var
 F=a[1];w=1;break;default:var
-e=KB}if(w)var
+e=KC}if(w)var
 e=[0,cN(F),3];var
-l=eu(z(o,Kk)),m=l[1];if(p(m,J7))if(p(m,J8))if(p(m,J9))var
-c=at([0,J$,[0,m,J_]]);else
+l=eu(z(o,Kl)),m=l[1];if(p(m,J8))if(p(m,J9))if(p(m,J_))var
+c=at([0,Ka,[0,m,J$]]);else
 var
-n=r7(l[2]),c=[1,n[1],n[2],n[3],n[4]];else
+n=r8(l[2]),c=[1,n[1],n[2],n[3],n[4]];else
 var
-s=r6(e,l[2]),c=[0,s[1],s[2],s[3]];else
+s=r7(e,l[2]),c=[0,s[1],s[2],s[3]];else
 var
-T=af(l[2]),c=[2,Z(function(g){var
-a=eu(g),b=a[1];if(p(b,J3)){if(p(b,J4)){if(p(b,J5)){var
-f=p(b,J6);if(f)throw aa;return f}return[0,dc(a[2])]}var
-c=r7(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=r6(e,a[2]);return[1,d[1],d[2],d[3]]},T)];function
+T=af(l[2]),c=[2,_(function(g){var
+a=eu(g),b=a[1];if(p(b,J4)){if(p(b,J5)){if(p(b,J6)){var
+f=p(b,J7);if(f)throw aa;return f}return[0,dc(a[2])]}var
+c=r8(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=r7(e,a[2]);return[1,d[1],d[2],d[3]]},T)];function
 U(a){return 10===a[1]?1:0}function
 G(a){return aU(U,a)}function
 V(a){return 0!==a[3]?1:0}function
@@ -10126,9 +10131,9 @@ d=2;break;case
 Y=c[3];if(aU(function(a){var
 b=a[1];return aU(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},Y))at(Ks);else{var
+7:return 1;default:return 0}},b)},Y))at(Kt);else{var
 O=0;if(G(a[6])){var
-_=a[2];if(aU(function(a){return 2===a[0]?1:0},_)){at(Kt);O=1}}if(!O)d=1}}else
+Z=a[2];if(aU(function(a){return 2===a[0]?1:0},Z)){at(Ku);O=1}}if(!O)d=1}}else
 d=2;break;case
 2:var
 L=a[1],$=a[7];if(0===c[0]){var
@@ -10142,30 +10147,30 @@ t=M;var
 N=function(c){if(8===c[0]){var
 d=c[1];if(7===d[0]){var
 a=d[1],b=0;switch(a[0]){case
-1:if(!p(a[1],Ku))b=1;break;case
+1:if(!p(a[1],Kv))b=1;break;case
 6:var
-e=a[1];if(1===e[0]&&!p(e[1],Kv))b=1;break}if(b)return t}}return 0},ac=function(a){if(a[1])switch(a[2][0]){case
+e=a[1];if(1===e[0]&&!p(e[1],Kw))b=1;break}if(b)return t}}return 0},ac=function(a){if(a[1])switch(a[2][0]){case
 8:case
 9:return 1}else{var
 b=a[2];switch(b[0]){case
 8:return 1-N(b);case
 9:var
-c=b[1];return 1-eE(function(a){return N(a[2])},c)}}return 0},ad=c[3],ak=0;if(aU(function(a){return aU(ac,a[1])},ad))at(Kw);else{var
+c=b[1];return 1-eE(function(a){return N(a[2])},c)}}return 0},ad=c[3],ak=0;if(aU(function(a){return aU(ac,a[1])},ad))at(Kx);else{var
 ae=c[3];if(eE(function(a){var
 b=a[1];return eE(function(d){var
 b=d[2],a=0;switch(b[0]){case
 0:var
-c=b[1];if(p(c,Kd)){if(!p(c,Ke))return aU(Kc,$)}else
+c=b[1];if(p(c,Ke)){if(!p(c,Kf))return aU(Kd,$)}else
 a=1;break;case
-1:if(!p(b[1],Kf))a=1;break;case
+1:if(!p(b[1],Kg))a=1;break;case
 7:case
 8:case
 9:a=1;break}return a?1:0},b)},ae)){d=1;ak=1}else
-at(Kx)}}else
+at(Ky)}}else
 d=2;break;case
-5:if(aU(Ka,a[4]))at(Ky);else
+5:if(aU(Kb,a[4]))at(Kz);else
 if(0===c[0]){var
-ag=c[3];if(aU(function(a){return 0!==a[1]?1:0},ag))at(Kz);else
+ag=c[3];if(aU(function(a){return 0!==a[1]?1:0},ag))at(KA);else
 d=1}else
 d=1;break;case
 7:var
@@ -10173,43 +10178,43 @@ y=0;if(2===c[0]){var
 ah=c[1];if(aU(function(a){if(typeof
 a!=="number"&&2===a[0]){var
 b=a[4];if(typeof
-b!=="number"&&3===b[0])return 1}return 0},ah))at(KA);else
+b!=="number"&&3===b[0])return 1}return 0},ah))at(KB);else
 y=1}else
 y=1;if(y){var
 J=a[4],I=a[2];d=3}break;default:d=1}var
 q=0;switch(d){case
 0:break;case
 3:var
-Q=0;if(G(J)&&aU(function(a){return 2===a[0]?1:0},I)){at(Kl);Q=1}if(!Q)q=2;break;case
+Q=0;if(G(J)&&aU(function(a){return 2===a[0]?1:0},I)){at(Km);Q=1}if(!Q)q=2;break;case
 1:q=2;break;default:q=1}var
 A=0;switch(q){case
 2:var
 g=0;switch(a[0]){case
 5:case
-7:if(aU(Kb,a[4])){at(Kq);g=1}else
+7:if(aU(Kc,a[4])){at(Kr);g=1}else
 if(7===a[0])switch(c[0]){case
 2:var
 X=function(a){if(typeof
-a!=="number"&&1===a[0])return H(a[3]);return 0};if(aU(X,c[1]))at(Kr);g=1;break;case
+a!=="number"&&1===a[0])return H(a[3]);return 0};if(aU(X,c[1]))at(Ks);g=1;break;case
 0:break;default:A=1;g=1}else
-g=1;break}if(!g)if(0===c[0]&&H(c[3]))at(Kp);else
+g=1;break}if(!g)if(0===c[0]&&H(c[3]))at(Kq);else
 A=1;break;case
 1:A=1;break}var
-K=am(z(o,Km)),W=ba(z(K,Kn));return[0,a,c,ba(z(K,Ko)),W]}function
-KC(b){var
-a=0,f=mo(64,aI(b))-18|0;for(;;){var
+K=am(z(o,Kn)),W=ba(z(K,Ko));return[0,a,c,ba(z(K,Kp)),W]}function
+KD(b){var
+a=0,f=mp(64,aI(b))-18|0;for(;;){var
 c=a<=f?1:0;if(c){var
-d=aM(eF(b,a,18),KD);if(!d){var
+d=aM(eF(b,a,18),KE);if(!d){var
 a=a+1|0;continue}var
 e=d}else
 var
-e=c;return e}}Mm(function(b){try{if(KC(b))var
-a=KF;else{try{var
-e=0,d=Kg(b);e=1}catch(a){a=us(a);if(a[1]===rW)var
+e=c;return e}}Mn(function(b){try{if(KD(b))var
+a=KG;else{try{var
+e=0,d=Kh(b);e=1}catch(a){a=ut(a);if(a[1]===rX)var
 c=[0,a[2]];else{if(a!==aa)throw a;var
 c=2}}if(e)var
-c=Fo(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return KE}if(typeof
+c=Fp(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return KF}if(typeof
 a==="number")switch(a){case
-0:return KG;case
-1:return KH;default:return KI}return bo(KJ,a[1])});mq(0);return}(globalThis));
+0:return KH;case
+1:return KI;default:return KJ}return bo(KK,a[1])});mr(0);return}(globalThis));

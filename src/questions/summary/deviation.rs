@@ -53,6 +53,7 @@ pub fn deviation(
         {
             Ok(_) => best = Ok([off.clone(), turned.clone()]),
             Err(Stop::Cancelled) if best.is_err() => return Err(NotEnclosed::Cancelled),
+            Err(Stop::Time) if best.is_err() => return Err(NotEnclosed::Time),
             Err(_) => break,
         }
     }

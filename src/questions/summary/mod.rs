@@ -173,7 +173,7 @@ pub fn summary(
         let ends = match &asked {
             _ if singular => Err(NotEnclosed::Singular),
             _ if control.is_cancelled() => Err(NotEnclosed::Cancelled),
-            _ if budget.is_over() => Err(NotEnclosed::Undecided),
+            _ if budget.is_over() => Err(NotEnclosed::Time),
             Asked::Extreme(extreme)
                 if deviation::is_one_of_two(claim, &extreme.bounded().requirement) =>
             {
@@ -278,7 +278,7 @@ fn tightened(
                 }
             }
         }
-        Err(NotEnclosed::Undecided) => {
+        Err(NotEnclosed::Undecided | NotEnclosed::Time) => {
             let reached = reached(claim, extreme, gap).ok().and_then(|(_, reached)| reached);
             ends = Ok(vec![End { certified: bound, reached, relative: None }]);
         }

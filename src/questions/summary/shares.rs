@@ -142,7 +142,7 @@ pub fn shares(
             }
         };
         let bound = match budget.is_over() {
-            true => Err(NotEnclosed::Undecided),
+            true => Err(NotEnclosed::Time),
             false => steps.next(control, 1 + count - number.min(count), |control| {
                 let own = &one.require[0];
                 match is_one_of_two(&one, own) {

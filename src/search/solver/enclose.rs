@@ -29,6 +29,8 @@ const MOST_BOXES: [usize; 2] = [50_000, 20_000];
 const FEW_OPEN: usize = 8;
 /// With tolerances in parts each width may take so many times the boxes that are worth it elsewhere.
 const TIMES_IN_PARTS: usize = 4;
+/// How often twice the loosest width that may be asked for is taken, where it has no proof.
+const LOOSER: usize = 3;
 /// How often a better inner end may turn up before the search is given up.
 const ROUNDS: usize = 8;
 
@@ -56,9 +58,12 @@ pub enum NotEnclosed {
     /// Some machine has a singularity, or a point out of reach, in the workspace.
     #[error("none: a singularity, or out of reach, inside")]
     Singular,
-    /// Neither a proof nor a refutation was found within the budget.
-    #[error("not enclosed within the budget")]
+    /// No proof was found, however wide.
+    #[error("not enclosed: no proof of a bound was found")]
     Undecided,
+    /// The time was up before.
+    #[error("not enclosed: the time was up")]
+    Time,
     /// It was cancelled.
     #[error("interrupted")]
     Cancelled,
@@ -92,7 +97,7 @@ pub fn is_singular(
 }
 
 /// Encloses an extreme to the relative width `relative`, or where that does not succeed to a looser
-/// one, up to [`loosest`] (for joint coordinates: relative to the greatest size that they take).
+/// one, up to eight times [`loosest`] (for joint coordinates: relative to the greatest size that they take).
 ///
 /// # Errors
 /// See [`NotEnclosed`].
@@ -115,7 +120,7 @@ pub fn enclose(
             let step = width * known.size()?;
             let outer = end(extreme, known.value, &step, 2).ok_or(NotEnclosed::Undecided)?;
             let outer_claim = extreme.claim(claim, &outer).ok_or(NotEnclosed::Undecided)?;
-            let is_loosest = *width == loosest();
+            let is_loosest = *width >= loosest();
             let found = steps.next(control, 2, |control| {
                 let how = (&mut begun, is_loosest);
                 certify(&outer_claim, &mut known, extreme, how, budget, control)
@@ -123,7 +128,7 @@ pub fn enclose(
             let (certified, boxes) = match found? {
                 Attempt::Certified(certified, boxes) => (certified, boxes),
                 Attempt::Worse => continue,
-                Attempt::Undecided(Stop::Time) => return Err(NotEnclosed::Undecided),
+                Attempt::Undecided(Stop::Time) => return Err(NotEnclosed::Time),
                 Attempt::Undecided(_) => break,
             };
             // What is too near to its bound to be refuted may not be at a looser width.
@@ -138,7 +143,8 @@ pub fn enclose(
 }
 
 /// What is found at the width `relative`, or else at the narrowest of its doubles up to [`loosest`], by halves of
-/// their exponents: a width is as easy as all narrower ones. Where time is short the loosest is first, and one between.
+/// their exponents, or else at the first of the doubles beyond: a width is as easy as all narrower ones. Where time is
+/// short the loosest is first, and one between.
 /// Once something is found, it stays so whatever then goes wrong.
 pub(super) fn narrowest<T>(
     relative: &BigRational,
@@ -150,11 +156,15 @@ pub(super) fn narrowest<T>(
         wider.push((last + last).min(loosest()));
     }
     let last = wider.len() - 1;
+    for _ in 0..LOOSER {
+        wider.extend(wider.last().map(|last| last + last));
+    }
     let first = if is_short { &[last, last / 2, 0][..] } else { &[0, last] };
+    let first = first.iter().copied().chain(last + 1..wider.len());
     // Found at `holds`, and nothing at and below `fails`.
     let (mut fails, mut holds) = (None, wider.len());
     let mut best = None;
-    let mut next = first.iter().copied();
+    let mut next = first;
     loop {
         let asked = next.find(|k| *k < holds && fails.is_none_or(|fails| *k > fails));
         let between = fails.filter(|fails| best.is_some() && holds - fails > 1);

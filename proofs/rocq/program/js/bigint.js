@@ -59,11 +59,30 @@ function oc_sqrt(a) {
     x = y;
   }
 }
-// What pages call, with strings of bytes.
+// What pages call, with strings of bytes; and "node verified.js FILE..", which says what orthocert-verified says, with
+// its exit codes.
 //Provides: oc_export
 //Requires: caml_call_gen, caml_string_of_jsbytes, caml_jsbytes_of_string
 function oc_export(verify) {
-  globalThis.orthocert_verify = function (text) {
+  function answer(text) {
     return caml_jsbytes_of_string(caml_call_gen(verify, [caml_string_of_jsbytes(text)]));
-  };
+  }
+  globalThis.orthocert_verify = answer;
+  if (typeof module !== "object" || typeof require !== "function" || require.main !== module) return;
+  var node = globalThis.process, paths = node.argv.slice(2), worst = paths.length ? 0 : 2;
+  if (!paths.length) node.stderr.write("usage: node verified.js CERT.json..\n");
+  paths.forEach(function (path) {
+    var said, code;
+    try {
+      said = answer(require("fs").readFileSync(path, "latin1"));
+      code = { CERTIFIED: 0, REFUTED: 1, REJECTED: 5 }[said];
+      node.stdout.write(said + "\n");
+      if (code === undefined) code = 3;
+    } catch (error) {
+      node.stderr.write("error: " + error.message + "\n");
+      code = 2;
+    }
+    worst = Math.max(worst, code);
+  });
+  node.exitCode = worst;
 }

@@ -318,11 +318,13 @@ fn what_was_found_before_time_is_up_stays() {
     let all = usize::MAX;
     assert_eq!(widths(1, false, all), (vec![1], Ok(Some(1))));
     assert_eq!(widths(100, false, all), (vec![1, 800, 32, 128, 64], Ok(Some(128))));
-    assert_eq!(widths(801, false, all), (vec![1, 800], Ok(None)));
+    assert_eq!(widths(801, false, all), (vec![1, 800, 1600], Ok(Some(1600))));
+    assert_eq!(widths(6401, false, all), (vec![1, 800, 1600, 3200, 6400], Ok(None)));
     assert_eq!(widths(1, true, all), (vec![800, 32, 1], Ok(Some(1))));
     assert_eq!(widths(8, true, all), (vec![800, 32, 1, 4, 8], Ok(Some(8))));
     assert_eq!(widths(100, true, all), (vec![800, 32, 128, 64], Ok(Some(128))));
-    assert_eq!(widths(801, true, all), (vec![800], Ok(None)));
+    assert_eq!(widths(3200, true, all), (vec![800, 1600, 3200], Ok(Some(3200))));
+    assert_eq!(widths(801, true, 1), (vec![800], Err(())));
     assert_eq!(widths(1, true, 2), (vec![800, 32], Ok(Some(32))));
     assert_eq!(widths(1, true, 0), (vec![], Err(())));
     assert_eq!(widths(1, false, 0), (vec![], Err(())));
