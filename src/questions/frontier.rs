@@ -25,7 +25,9 @@ const SPREAD: f64 = 100.0;
 /// Where an approach begins, relative to the value that it comes near to.
 const FAR: f64 = 0.1;
 /// A distance is near enough to one that is too near if it is at most this many times as far.
-const NEXT: f64 = 1.2;
+const NEXT: f64 = 1.1;
+/// Where a distance is too near, one this many times as far is tried; and from far away, one so much nearer.
+const FARTHER: f64 = 3.2;
 
 /// A value, and the certificate of the claim for it.
 pub type Certified = (BigRational, Box<Certificate>);
@@ -195,25 +197,49 @@ pub fn frontier<T>(
     Ok(best.map(|(_, value, found)| (value, found)))
 }
 
-/// A value that is come near to, from where a test succeeds.
+/// A value that is come near to, from where a test succeeds; distances are relative.
 #[derive(Clone, Copy, Debug)]
 pub struct Approach {
     /// The value.
     pub to: f64,
     /// Which side of it succeeds.
     pub succeeds: Succeeds,
-    /// The relative distance that is near enough.
+    /// The distance that is near enough.
     pub near: f64,
+    /// The distance that is tried first.
+    pub first: f64,
+    /// Where that is too near, the distances tried begin and end here.
+    pub far: (f64, f64),
+    /// A distance at which it is known to succeed: less is tried.
+    pub known: Option<f64>,
 }
 
 impl Approach {
-    /// The value at a relative distance.
-    fn at(&self, distance: f64) -> Option<BigRational> {
+    /// From a tenth of the value.
+    pub fn from_afar(to: f64, succeeds: Succeeds, near: f64) -> Self {
+        Approach { to, succeeds, near, first: near.max(FAR), far: (0.0, SPREAD), known: None }
+    }
+
+    /// The value at a distance.
+    pub fn at(&self, distance: f64) -> Option<BigRational> {
         let value = match self.succeeds {
             Succeeds::Below => self.to / (1.0 + distance),
             Succeeds::Above => self.to * (1.0 + distance),
         };
         decimal(value, distance)
+    }
+
+    /// The distance to be tried after the nearest success and the farthest failure.
+    fn next(&self, success: Option<f64>, failure: Option<f64>) -> Option<f64> {
+        match (success, failure) {
+            (None, None) => Some(self.first),
+            (Some(far), None) if far > 1.0 => Some(far / FARTHER),
+            (Some(far), None) => (far > self.near).then(|| (far * far.min(FAR)).max(self.near)),
+            (Some(far), Some(near)) => {
+                (far > near * NEXT).then(|| (far * near).sqrt().max(far / FARTHER))
+            }
+            (None, Some(near)) => (near < self.far.1).then(|| (near * FARTHER).max(self.far.0)),
+        }
     }
 }
 
@@ -226,10 +252,10 @@ pub struct Approached<T> {
     pub out_of_time: bool,
 }
 
-/// The nearest value found at which `test` succeeds: at a distance of a tenth, a hundredth, a square of it
-/// and so on, and past the first that fails at distances between. Where a tenth is too near, it
-/// begins farther away. A test has half of the time that is left: what is far costs little, and what fails
-/// costs most. Cancelled, it has what was found before.
+/// The nearest value found at which `test` succeeds: while it does, at distances of a tenth, a square of it
+/// and so on; past the first that fails, between, from the side that succeeds. A test has half of the time that is left, and a
+/// quarter where one failed and none succeeded: what is far costs little, and what fails costs most. Cancelled, it
+/// has what was found before.
 ///
 /// # Errors
 /// Those of `test`.
@@ -240,35 +266,28 @@ pub fn approach<T>(
     mut test: impl FnMut(&BigRational, Budget, &mut Control<'_>) -> Result<Option<T>, NoAnswer>,
 ) -> Result<Approached<T>, NoAnswer> {
     let mut steps = Steps::default();
-    let (mut best, mut failed, mut out_of_time) = (None, None, false);
-    let mut distance = approach.near.max(FAR);
-    while let Some(value) = approach.at(distance) {
-        let own = budget.shared(2);
+    let (mut best, mut out_of_time) = (None, false);
+    let (mut success, mut failure) = (approach.known, None);
+    while let Some(distance) = approach.next(success, failure) {
+        if (best.is_some() || failure.is_some()) && budget.is_over() {
+            out_of_time = true;
+            break;
+        }
+        let Some(value) = approach.at(distance) else { break };
+        let own = budget.shared(if success.is_none() && failure.is_some() { 4 } else { 2 });
         let found = match steps.next(control, 3, |control| test(&value, own, control)) {
             Err(NoAnswer::Cancelled) => break,
             found => found?,
         };
         match found {
-            Some(found) => best = Some((distance, (value, found))),
+            Some(found) => (best, success) = (Some((value, found)), Some(distance)),
             None => {
-                failed = Some(distance);
+                failure = Some(distance);
                 out_of_time |= own.is_over();
             }
         }
-        distance = match (&best, failed) {
-            (Some((far, _)), None) if *far > approach.near => {
-                (far * far.min(FAR)).max(approach.near)
-            }
-            (Some((far, _)), Some(near)) if far / near > NEXT => (far * near).sqrt(),
-            (None, Some(near)) if near < SPREAD => near * 10.0f64.sqrt(),
-            _ => break,
-        };
-        if budget.is_over() {
-            out_of_time = true;
-            break;
-        }
     }
-    Ok(Approached { found: best.map(|(_, found)| found), out_of_time })
+    Ok(Approached { found: best, out_of_time })
 }
 
 /// Where both ends are looked for.
@@ -318,7 +337,7 @@ pub fn bracket(
     })?;
     let end = refuted.as_ref().and_then(|(x, _)| x.to_f64()).filter(|_| !is_sure);
     let near = end.map_or(share, |_| 2.0 * share) * gap;
-    let to = Approach { to: end.unwrap_or(expected), succeeds: holds, near };
+    let to = Approach::from_afar(end.unwrap_or(expected), holds, near);
     let Approached { found: certified, out_of_time } = control.part([0.1, 1.0], |control| {
         approach(&to, budget, control, |x, budget, control| {
             claim(x).map_or(Ok(None), |claim| proof(&claim, budget, control))
@@ -469,7 +488,7 @@ mod tests {
     #[test]
     fn the_nearest_distance_that_works_is_come_near_to_from_afar() {
         for succeeds in [Succeeds::Below, Succeeds::Above] {
-            let to = Approach { to: 200.0, succeeds, near: 3e-7 };
+            let to = Approach::from_afar(200.0, succeeds, 3e-7);
             for least in [2e-7, 3.1e-7, 7e-6, 0.004, 0.09, 0.11, 0.7, 30.0] {
                 let mut tries = 0;
                 let found = approached(&to, ENDLESS, |distance| {
@@ -477,17 +496,44 @@ mod tests {
                     Ok(distance >= least)
                 });
                 let found = found.unwrap();
-                let most = f64::max(1.01 * to.near, 1.21 * least);
+                let most = f64::max(1.01 * to.near, 1.11 * least);
                 assert!((least..=most).contains(&found), "{least}: {found}");
-                assert!(tries <= 11, "{least}: {tries}");
+                assert!(tries <= 12, "{least}: {tries}");
             }
             assert_eq!(approached(&to, ENDLESS, |_| Ok(false)), None);
         }
     }
 
+    /// What is hoped for is tried first, and what is known is not tried again.
+    #[test]
+    fn an_approach_begins_near_where_that_is_hoped_for() {
+        let far = (10.0, 1e3);
+        let to =
+            Approach { first: 0.0075, far, ..Approach::from_afar(1.0, Succeeds::Below, 0.0075) };
+        for (least, known, expected) in [
+            (0.007, None, &[0.0075][..]),
+            (2.0, None, &[0.0075, 10.0, 3.13, 0.977, 1.75, 2.33, 2.02, 1.88]),
+            (30.0, None, &[0.0075, 10.0, 32.0, 17.9, 23.9, 27.7, 29.7]),
+            (1e5, None, &[0.0075, 10.0, 32.0, 102.0, 328.0, 1049.0]),
+            (0.007, Some(0.3), &[0.03, 0.0075]),
+            (0.02, Some(0.3), &[0.03, 0.0075, 0.015, 0.0212, 0.0178, 0.0194]),
+            (0.007, Some(0.0074), &[]),
+        ] {
+            let mut tried = Vec::new();
+            let to = Approach { known, ..to };
+            approached(&to, ENDLESS, |distance| {
+                tried.push(distance);
+                Ok(distance >= least)
+            });
+            let near = |(tried, expected): (&f64, &f64)| (tried / expected - 1.0).abs() < 0.03;
+            let same = tried.len() == expected.len() && tried.iter().zip(expected).all(near);
+            assert!(same, "{least} {known:?}: {tried:?}");
+        }
+    }
+
     #[test]
     fn an_approach_that_ends_early_has_what_was_found_before() {
-        let to = Approach { to: 200.0, succeeds: Succeeds::Above, near: 3e-7 };
+        let to = Approach::from_afar(200.0, Succeeds::Above, 3e-7);
         for (most, expected) in
             [None, Some(0.1), Some(0.01), Some(1e-4), Some(3e-7)].iter().enumerate()
         {

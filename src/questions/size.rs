@@ -186,7 +186,7 @@ impl Family {
         control: &mut Control<'_>,
     ) -> Result<Approached<Box<Certificate>>, NoAnswer> {
         let side = number(&self.side);
-        let to = Approach { to: self.expected, succeeds: Succeeds::Below, near: SHARE * gap };
+        let to = Approach::from_afar(self.expected, Succeeds::Below, SHARE * gap);
         approach(&to, budget, control, |size, budget, control| match (self.centres(size), &side) {
             (Some(claim), Some(side)) => exclude(&claim, side, budget, control),
             _ => Ok(None),

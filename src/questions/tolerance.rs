@@ -9,8 +9,8 @@
 use crate::exact::arithmetic::apply;
 use crate::exact::Exact;
 use crate::questions::frontier::{
-    decimal, frontier, refutation, unless_cancelled, Bracket, Certified, NoAnswer, Succeeds, Walk,
-    LARGEST_FACTOR,
+    approach, frontier, refutation, unless_cancelled, Approach, Approached, Bracket, Certified,
+    NoAnswer, Succeeds, Walk, LARGEST_FACTOR,
 };
 use crate::report::exactly;
 use crate::search::solver::enclose::of_one_width;
@@ -18,7 +18,7 @@ use crate::search::solver::{self, number};
 use crate::search::{Budget, Control, Stop};
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
-use orthocert_checker::certificate::Proof;
+use orthocert_checker::certificate::{Certificate, Proof};
 use orthocert_kernel::claim::{Leg, MachineClaim, Mechanism, Quantity, Turning, Vector};
 use orthocert_kernel::number::{Expression, Operator};
 use orthocert_kernel::problem::Problem;
@@ -32,17 +32,12 @@ const START: f64 = 1e-3;
 const LIMITS: (f64, f64) = (1e-12, 10.0);
 /// To such a share of the gap either end is found, where both are farther apart.
 const SHARE: f64 = 0.25;
-/// What is aimed at, relative to the gap: values are rounded.
-const AIM: f64 = 0.99;
 /// A tolerance that is not yet beyond all machines, relative to the same, and the factor of the
 /// steps from there on.
 const LAST: f64 = 0.1;
 const SHORT: f64 = 1.25;
-/// Of the time that is left, each proof may take one part of so many: less wide tolerances take less, and one that is
-/// certified is better than none.
-const TO_EACH_PROOF: usize = 2;
-/// The first step's factor where the tolerances just short of the refuted one are not proved.
-const UNPROVED: f64 = 1.3;
+/// Parts of the refuted tolerance that are tried first where the best that can be hoped for is not proved, less one.
+const FAR: (f64, f64) = (10.0, 1e6);
 
 /// A kind of parameter, which all legs that have it share.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -305,74 +300,57 @@ pub fn widest(
         }
         found => found,
     };
-    let walk = Walk { succeeds: Succeeds::Below, deadline: budget.deadline, ..walk };
-    let walk = match refuted.as_ref().and_then(|(t, _)| t.to_f64()) {
-        // The best that can be hoped for; where it fails, down by steps that grow.
-        Some(t) => Walk {
-            start: t / (1.0 + gap * (1.0 - SHARE)),
-            factor: UNPROVED,
-            enough: Some(t / (1.0 + gap * AIM)),
-            ..walk
-        },
-        None => walk,
-    };
     let point = refuted.as_ref().and_then(|(_, certificate)| match &certificate.proof {
         Proof::Witness(witness) => Some(&witness.point[..]),
         _ => None,
     });
-    let walk = match &known.certified {
-        Some((least, _)) => walk.beyond(least.to_f64().unwrap_or(walk.limits.0)),
-        None => walk,
+    // The best that can be hoped for, first.
+    let near = gap * (1.0 - SHARE);
+    let end = refuted.as_ref().and_then(|(t, _)| t.to_f64());
+    let to = end.unwrap_or(LIMITS.1 * scale);
+    let distance = |(t, _): &Certified| Some(to / t.to_f64()? - 1.0);
+    let known_distance = known.certified.as_ref().and_then(distance);
+    let to = Approach {
+        first: near,
+        far: FAR,
+        known: known_distance,
+        ..Approach::from_afar(to, Succeeds::Below, near)
     };
-    let (certified, out_of_time) = control
-        .part([0.6, 1.0], |control| certified(claim, scheme, (&walk, point), budget, control))?;
-    let out_of_time = out_of_time || budget.is_over() || control.is_cancelled();
-    Ok(Bracket { certified: certified.or(known.certified), refuted, out_of_time })
-}
-
-impl Walk {
-    /// The same beyond what is certified.
-    fn beyond(&self, least: f64) -> Self {
-        let start = match self.enough {
-            Some(_) => (least * self.start).sqrt(),
-            None => least * UNPROVED,
-        };
-        Walk { start, limits: (least, self.limits.1), ..*self }
-    }
+    let certified = control
+        .part([0.6, 1.0], |control| certified(claim, scheme, (&to, point), budget, control))?;
+    let out_of_time = certified.out_of_time || budget.is_over() || control.is_cancelled();
+    Ok(Bracket { certified: certified.found.or(known.certified), refuted, out_of_time })
 }
 
 /// The widest `t` found for which the claim widened by `scheme` is certified; `point` is where it is nearest to failing.
-/// Of platforms that turn one proof that is not found may take all the time: what few boxes prove is first, then. And whether
-/// the time of a proof was up.
+/// Of platforms that turn a proof that is not found may take long: where no time is set, what few boxes prove is first.
 fn certified(
     claim: &MachineClaim,
     scheme: &Scheme,
-    (walk, point): (&Walk, Option<&[Expression]>),
+    (to, point): (&Approach, Option<&[Expression]>),
     budget: Budget,
     control: &mut Control<'_>,
-) -> Result<(Option<Certified>, bool), NoAnswer> {
-    let (ran_out, out_of_time) = (Cell::new(false), Cell::new(false));
-    let prove = |walk: &Walk, budget: Budget, control: &mut Control<'_>| {
-        frontier(walk, control, |t, control| {
+) -> Result<Approached<Box<Certificate>>, NoAnswer> {
+    let ran_out = Cell::new(false);
+    let prove = |to: &Approach, budget: Budget, control: &mut Control<'_>| {
+        approach(to, budget, control, |t, budget, control| {
             let Some(claim) = scheme.claim(claim, t) else { return Ok(None) };
-            let budget = budget.shared(TO_EACH_PROOF);
             let found = solver::proof_about(&claim, point, budget, control);
             ran_out.set(ran_out.get() || matches!(found, Err(Stop::Boxes | Stop::Time)));
-            out_of_time.set(out_of_time.get() || matches!(found, Err(Stop::Time)));
             unless_cancelled(control, found.ok())
         })
     };
-    let first = decimal(walk.start, walk.gap).and_then(|t| scheme.claim(claim, &t));
+    let first = to.at(to.first).and_then(|t| scheme.claim(claim, &t));
     let few = first.and_then(|claim| Some(of_one_width(budget, &Problem::new(&claim).ok()?)));
-    let few = few.filter(|few| claim.orientation.is_some() && few.max_boxes < budget.max_boxes);
-    let Some(few) = few else { return Ok((prove(walk, budget, control)?, out_of_time.get())) };
-    let quick = control.part([0.0, 0.5], |control| prove(walk, few, control))?;
-    let least = quick.as_ref().and_then(|(t, _)| t.to_f64());
-    let is_enough = least.is_some_and(|t| walk.enough.is_some_and(|enough| t >= enough));
-    if is_enough || !ran_out.get() {
-        return Ok((quick, out_of_time.get()));
+    let is_endless = claim.orientation.is_some() && budget.deadline.is_none();
+    let few = few.filter(|few| is_endless && few.max_boxes < budget.max_boxes);
+    let Some(few) = few else { return prove(to, budget, control) };
+    let quick = control.part([0.0, 0.5], |control| prove(to, few, control))?;
+    let distance = quick.found.as_ref().and_then(|(t, _)| Some(to.to / t.to_f64()? - 1.0));
+    if !ran_out.get() {
+        return Ok(quick);
     }
-    let walk = least.map_or(*walk, |least| walk.beyond(least));
-    let found = control.part([0.5, 1.0], |control| prove(&walk, budget, control))?;
-    Ok((found.or(quick), out_of_time.get()))
+    let to = Approach { known: distance.or(to.known), ..*to };
+    let found = control.part([0.5, 1.0], |control| prove(&to, budget, control))?;
+    Ok(Approached { found: found.found.or(quick.found), ..found })
 }

@@ -98,7 +98,7 @@ pub fn largest_cube(
             false => about_one_centre(claim, &place, gap, budget, control),
         };
     }
-    let near = |succeeds| Approach { to: place.side, succeeds, near: SHARE * gap };
+    let near = |succeeds| Approach::from_afar(place.side, succeeds, SHARE * gap);
     let inside = control.part([0.3, 0.6], |control| {
         let budget = budget.shared(2);
         approach(&near(Succeeds::Below), budget, control, |side, budget, control| {
