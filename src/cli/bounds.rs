@@ -1,6 +1,7 @@
 //! `orthocert bounds`.
 
-use super::{certify, effort, input, interrupt, print, Failure, Format, Status};
+use super::certify::{self, Unwritten};
+use super::{effort, input, interrupt, print, Failure, Format, Status};
 use crate::design::Design;
 use crate::exact::decimal::{approximate, outward, rounded, Toward};
 use crate::exact::Exact;
@@ -102,7 +103,8 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let claim = &design.claim;
     let budget = effort.budget_or(effort::boxes_of(claim, BOXES), started)?;
     interrupt::grant();
-    let rows = rows(claim, &relative, arguments, budget)?;
+    let mut unwritten = Unwritten::default();
+    let rows = rows(claim, &relative, (arguments, &mut unwritten), budget)?;
     match effort.format {
         Format::Json => {
             let mut answer = serde_json::json!({ "bounds": rows });
@@ -117,13 +119,14 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         Format::Text => print::answer(&text(&rows, &design, &relative, effort.quiet, started))?,
     }
     let complete = rows.iter().all(|row| row.not_enclosed.is_none());
-    interrupt::unless_cancelled(if complete { Status::Done } else { Status::Undecided })
+    let status = if complete { Status::Done } else { Status::Undecided };
+    unwritten.or(interrupt::unless_cancelled(status)?)
 }
 
 fn rows(
     claim: &kernel::MachineClaim,
     relative: &BigRational,
-    arguments: &Arguments,
+    (arguments, unwritten): (&Arguments, &mut Unwritten),
     budget: Budget,
 ) -> Result<Vec<Row>, Failure> {
     let effort = &arguments.effort;
@@ -158,7 +161,8 @@ fn rows(
         match found {
             Ok(Enclosed { width, inner, outer, refuted, certified, .. }) => {
                 row.enclosed((width, inner, outer), relative);
-                row.store(arguments, &extreme.file_stem(), (refuted.as_deref(), &certified))?;
+                let files = (refuted.as_deref(), &*certified);
+                row.store((arguments, unwritten), &extreme.file_stem(), files)?;
             }
             Err(error) => row.fails(error)?,
         }
@@ -181,7 +185,8 @@ fn rows(
                         let outer = certified[side].clone();
                         row.enclosed((width.clone(), inner.clone(), outer), relative);
                         let stem = format!("rho-{}-{}", leg + 1, row.end);
-                        row.store(arguments, &stem, (Some(refuted), certificate))?;
+                        let files = (Some(&**refuted), &**certificate);
+                        row.store((arguments, unwritten), &stem, files)?;
                     }
                     None => row.fails(NotEnclosed::Undecided)?,
                 },
@@ -272,7 +277,7 @@ impl Row {
     /// Writes the certificates, if they are asked for; the point is that of the refutation.
     fn store(
         &mut self,
-        arguments: &Arguments,
+        (arguments, unwritten): (&Arguments, &mut Unwritten),
         stem: &str,
         (refuted, certified): (Option<&Certificate>, &Certificate),
     ) -> Result<(), Failure> {
@@ -282,7 +287,8 @@ impl Row {
         for (certificate, side) in inner.chain([(certified, "outer")]) {
             let text = certificate.to_text().map_err(|_| Failure::Defect)?;
             let path = folder.join(format!("{stem}-{side}.cert.json"));
-            self.certificates.push(certify::store(Some(folder), &path, &text)?);
+            let stored = certify::store(Some(folder), &path, &text);
+            self.certificates.extend(unwritten.unless(stored));
         }
         Ok(())
     }

@@ -1,6 +1,6 @@
 //! From an answer to a certificate on the disk: what all commands that prove have in common.
 
-use super::{input, Failure};
+use super::{input, Failure, Status};
 use crate::files::{digest, output};
 pub use crate::questions::decide::as_written;
 use crate::report::{CertificateFile, EarlierFile};
@@ -42,6 +42,28 @@ pub fn store(folder: Option<&Path>, path: &Path, text: &str) -> Result<Certifica
     }
     let sha256 = digest::sha256(text.as_bytes());
     Ok(CertificateFile { path: path.to_string_lossy().into_owned(), bytes: text.len(), sha256 })
+}
+
+/// Why files of an answer could not be written: told after the answer, which is not lost with them.
+#[derive(Default)]
+pub struct Unwritten(Option<Failure>);
+
+impl Unwritten {
+    /// The file, if it was written.
+    pub fn unless(&mut self, stored: Result<CertificateFile, Failure>) -> Option<CertificateFile> {
+        match stored {
+            Ok(file) => Some(file),
+            Err(failure) => {
+                self.0.get_or_insert(failure);
+                None
+            }
+        }
+    }
+
+    /// The first failure, if there is one; else this.
+    pub fn or(self, status: Status) -> Result<Status, Failure> {
+        self.0.map_or(Ok(status), Err)
+    }
 }
 
 /// What stands where a certificate of `claim` would have been written.

@@ -1,6 +1,7 @@
 //! `orthocert largest-cube`.
 
-use super::{certify, effort::Effort, input, interrupt, print, size, Failure, Format, Status};
+use super::certify::{self, Unwritten};
+use super::{effort::Effort, input, interrupt, print, size, Failure, Format, Status};
 use crate::design::{written, Design};
 use crate::exact::decimal::{grouped, readable};
 use crate::exact::Exact;
@@ -114,13 +115,14 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     if bracket.inside.is_none() && bracket.too_large.is_none() && interrupt::is_cancelled() {
         return Err(Failure::Interrupted);
     }
-    let mut certificates = Vec::new();
+    let (mut certificates, mut unwritten) = (Vec::new(), Unwritten::default());
     let inside = bracket.inside.as_ref().map(|inside| &inside.certificate);
     let beyond = bracket.too_large.as_ref().or(bracket.refuted_here.as_ref());
     let too_large = beyond.map(|too_large| &too_large.certificate);
     for (certificate, target) in [inside, too_large].into_iter().zip(&targets) {
         if let Some(certificate) = certificate {
-            certificates.push(stored(certificate, arguments.output.as_deref(), target)?);
+            let stored = stored(certificate, arguments.output.as_deref(), target);
+            certificates.extend(unwritten.unless(stored));
         }
     }
     let found = reached(&bracket);
@@ -149,13 +151,14 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         Format::Json => print::json(&answer)?,
         Format::Text => print::answer(&text(&answer, effort.quiet))?,
     }
-    interrupt::unless_cancelled(match (&answer.min, &answer.max, side) {
+    let status = match (&answer.min, &answer.max, side) {
         (Some(_), _, Some(_)) => Status::Decided(Verdict::Certified),
         (_, Some(_), Some(_)) => Status::Decided(Verdict::Refuted),
         // Both sides are rounded to a hundredth of the gap.
         (_, _, None) if answer.gap.is_some_and(|found| found <= gap) => Status::Done,
         _ => Status::Undecided,
-    })
+    };
+    unwritten.or(interrupt::unless_cancelled(status)?)
 }
 
 fn boxed(design: &Design) -> Result<&MachineClaim, Failure> {

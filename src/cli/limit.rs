@@ -1,7 +1,8 @@
 //! `orthocert limit`.
 
+use super::certify::{self, Unwritten};
 use super::size::{explain, gap_text};
-use super::{certify, effort::Effort, input, interrupt, print, Failure, Format, Status};
+use super::{effort::Effort, input, interrupt, print, Failure, Format, Status};
 use crate::design::{text_of, Design, Variable};
 use crate::exact::decimal::{exact, grouped, significant};
 use crate::exact::Exact;
@@ -122,7 +123,8 @@ struct Row {
 #[derive(Serialize)]
 struct Value {
     value: Exact,
-    certificate: CertificateFile,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    certificate: Option<CertificateFile>,
 }
 
 /// A value for which there is no claim.
@@ -180,7 +182,9 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     });
     drop(bar);
     let limits = found.map_err(|error| explain(error, &design))?;
-    let rows = limits.into_iter().map(|limit| row(arguments, &question, variable.own(), limit));
+    let mut unwritten = Unwritten::default();
+    let mut row = |limit| row((arguments, &mut unwritten), &question, variable.own(), limit);
+    let rows = limits.into_iter().map(&mut row);
     let answer = Answer {
         title: design.title.clone(),
         design: name.into_owned(),
@@ -197,7 +201,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         Format::Text => print::answer(&words(&answer, effort.quiet))?,
     }
     let status = if is_complete(&answer) { Status::Done } else { Status::Undecided };
-    interrupt::unless_cancelled(status)
+    unwritten.or(interrupt::unless_cancelled(status)?)
 }
 
 /// Whether a limit was found as near as was asked for, and none is left open: of a certified design
@@ -250,7 +254,7 @@ fn nodes(proof: &Proof) -> usize {
 
 /// A limit, its certificates on the disk.
 fn row(
-    arguments: &Arguments,
+    (arguments, unwritten): (&Arguments, &mut Unwritten),
     question: &Question,
     own: &Exact,
     limit: Limit<Box<Certificate>>,
@@ -263,11 +267,12 @@ fn row(
         true => own.clone(),
         false => Exact::Rational(value.clone()),
     };
-    let stored = |end: &Option<Decided<Box<Certificate>>>| -> Result<Option<Value>, Failure> {
+    let mut stored = |end: &Option<Decided<Box<Certificate>>>| -> Result<Option<Value>, Failure> {
         let Some(end) = end else { return Ok(None) };
         let target = arguments.target(side, &end.verdict.to_string());
         let text = certify::as_written(&end.proof).map_err(|_| Failure::Defect)?;
-        let certificate = certify::store(arguments.output.as_deref(), &target, &text)?;
+        let stored = certify::store(arguments.output.as_deref(), &target, &text);
+        let certificate = unwritten.unless(stored);
         Ok(Some(Value { value: number(&end.value), certificate }))
     };
     Ok(Row {
@@ -394,7 +399,8 @@ fn limit(out: &mut String, row: &Row) {
         let why = if interrupt::is_cancelled() { "interrupted" } else { "the time was up" };
         line(out, "", why);
     }
-    for Value { certificate, .. } in [&row.certified, &row.refuted].into_iter().flatten() {
+    let values = [&row.certified, &row.refuted].into_iter().flatten();
+    for certificate in values.filter_map(|value| value.certificate.as_ref()) {
         let bytes = grouped(certificate.bytes as u64);
         line(out, "certificate", &format!("{} ({bytes} bytes)", Shown(&certificate.path)));
     }

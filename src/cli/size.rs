@@ -1,6 +1,7 @@
 //! `orthocert size`, and what it has in common with `orthocert tolerance`.
 
-use super::{certify, effort, input, interrupt, print, Failure, Format, Status};
+use super::certify::{self, Unwritten};
+use super::{effort, input, interrupt, print, Failure, Format, Status};
 use crate::design::Design;
 use crate::exact::decimal::{exact, outward, readable, rounded, Toward};
 use crate::exact::Exact;
@@ -120,7 +121,8 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     if nothing && interrupt::is_cancelled() {
         return Err(Failure::Interrupted);
     }
-    let answer = answer(&family, (found, excluded), side, width, arguments)?;
+    let mut unwritten = Unwritten::default();
+    let answer = answer(&family, (found, excluded), side, width, (arguments, &mut unwritten));
     let why = !answer.gap_reached && !answer.interrupted;
     let missed = why.then(|| missed(out_of_time));
     let length = common_length(claim);
@@ -130,7 +132,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         Format::Text => print::answer(&text(&answer, effort.quiet, started))?,
     }
     let status = if answer.gap_reached { Status::Done } else { Status::Undecided };
-    interrupt::unless_cancelled(status)
+    unwritten.or(interrupt::unless_cancelled(status)?)
 }
 
 /// The length that all legs have, if it is one exact number.
@@ -214,10 +216,10 @@ fn answer(
     (mut found, excluded): (Bracket, Option<Certified>),
     side: BigRational,
     width: f64,
-    arguments: &Arguments,
-) -> Result<Answer, Failure> {
+    (arguments, unwritten): (&Arguments, &mut Unwritten),
+) -> Answer {
     let certificates = match &arguments.output {
-        Some(folder) => stored(folder, &found, excluded.as_ref())?,
+        Some(folder) => stored(folder, &found, excluded.as_ref(), unwritten),
         None => Vec::new(),
     };
     let end = |end: &Option<Certified>| end.as_ref().map(|(size, _)| Exact::Rational(size.clone()));
@@ -234,7 +236,7 @@ fn answer(
         .certified
         .as_ref()
         .map(|(size, _)| family.centre.each_ref().map(|c| Exact::Rational(c * size)));
-    Ok(Answer {
+    Answer {
         unknown: match family.unknown {
             Unknown::LegLength => "leg_length",
             Unknown::Scale => "scale",
@@ -255,7 +257,7 @@ fn answer(
         length_unit: None,
         interrupted: interrupt::is_cancelled(),
         certificates,
-    })
+    }
 }
 
 /// Writes the certificates that there are.
@@ -263,7 +265,8 @@ fn stored(
     folder: &Path,
     found: &Bracket,
     excluded: Option<&Certified>,
-) -> Result<Vec<CertificateFile>, Failure> {
+    unwritten: &mut Unwritten,
+) -> Vec<CertificateFile> {
     let ends = [
         ("certified", found.certified.as_ref()),
         ("refuted", found.refuted.as_ref()),
@@ -271,7 +274,9 @@ fn stored(
     ];
     let there = ends.into_iter().filter_map(|(name, end)| Some((name, &end?.1)));
     there
-        .map(|(name, certificate)| file(folder, &format!("size-{name}.cert.json"), certificate))
+        .filter_map(|(name, certificate)| {
+            unwritten.unless(file(folder, &format!("size-{name}.cert.json"), certificate))
+        })
         .collect()
 }
 

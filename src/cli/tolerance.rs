@@ -1,5 +1,6 @@
 //! `orthocert tolerance`.
 
+use super::certify::Unwritten;
 use super::size::{explain, file, gap, gap_text};
 use super::{effort, input, interrupt, print, Failure, Format, Status};
 use crate::design::Design;
@@ -131,7 +132,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         });
         found.map_err(|error| explain(error, &design))
     };
-    let mut rows = Vec::new();
+    let (mut rows, mut unwritten) = (Vec::new(), Unwritten::default());
     let mut fill = || {
         let schemes = schemes(&kinds);
         let mut after = usize::from(mixed(&kinds)) + kinds.len() * legs;
@@ -141,7 +142,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
                 break;
             }
             let found = bracket(scheme, Bracket::default(), schemes.len() - at + after)?;
-            rows.push(row(scheme, *measure, &found, width, arguments)?);
+            rows.push(row(scheme, *measure, &found, width, (arguments, &mut unwritten))?);
             all.push(found);
         }
         // What time the others left is for those whose time was up, first for those of which least is known: half of what is left
@@ -158,7 +159,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
                 let (scheme, measure) = &schemes[at];
                 let found = bracket(scheme, all[at].clone(), 2 + after)?;
                 improved |= certified(&found) != certified(&all[at]);
-                rows[at] = row(scheme, *measure, &found, width, arguments)?;
+                rows[at] = row(scheme, *measure, &found, width, (arguments, &mut unwritten))?;
                 all[at] = found;
             }
         }
@@ -169,7 +170,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
             interrupt::unless_cancelled(())?;
             let scheme = Scheme { weights, leg: None };
             let found = bracket(&scheme, Bracket::default(), after)?;
-            rows.push(row(&scheme, Measure::Share, &found, width, arguments)?);
+            rows.push(row(&scheme, Measure::Share, &found, width, (arguments, &mut unwritten))?);
         }
         after -= usize::from(mixed(&kinds));
         for kind in kinds.iter().filter(|_| arguments.by_leg) {
@@ -179,7 +180,8 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
                 let scheme = Scheme { leg: Some(leg), ..Scheme::common(&[*kind]) };
                 let found = bracket(&scheme, Bracket::default(), after)?;
                 after -= 1;
-                rows.push(row(&scheme, measure(kind.is_direction()), &found, width, arguments)?);
+                let measure = measure(kind.is_direction());
+                rows.push(row(&scheme, measure, &found, width, (arguments, &mut unwritten))?);
             }
             // The leg that allows least first.
             let least = |row: &Row| {
@@ -210,7 +212,8 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         Format::Text => print::answer(&text(&rows, arguments, &design, started))?,
     }
     let complete = rows.iter().all(|row| row.gap_reached);
-    interrupt::unless_cancelled(if complete { Status::Done } else { Status::Undecided })
+    let status = if complete { Status::Done } else { Status::Undecided };
+    unwritten.or(interrupt::unless_cancelled(status)?)
 }
 
 /// The widest tolerance of a row that is certified.
@@ -343,7 +346,7 @@ fn row(
     measure: Measure,
     found: &Bracket,
     width: f64,
-    arguments: &Arguments,
+    (arguments, unwritten): (&Arguments, &mut Unwritten),
 ) -> Result<Row, Failure> {
     let names: Vec<&'static str> = scheme.weights.iter().map(|(kind, _)| kind.name()).collect();
     let stem = match (&names[..], measure) {
@@ -361,7 +364,7 @@ fn row(
         for (end, side) in [(&found.certified, "certified"), (&found.refuted, "refuted")] {
             if let Some((_, certificate)) = end {
                 let name = format!("tolerance-{stem}-{side}.cert.json");
-                certificates.push(file(folder, &name, certificate)?);
+                certificates.extend(unwritten.unless(file(folder, &name, certificate)));
             }
         }
     }

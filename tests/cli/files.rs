@@ -107,6 +107,25 @@ fn a_full_disk_exits_4_and_a_device_stays_a_device() {
     assert!(folder.names().is_empty());
 }
 
+/// What took minutes to find is told, though no file holds its certificates.
+#[cfg(target_os = "linux")]
+#[test]
+fn an_answer_is_told_though_the_disk_is_full() {
+    let file = "tripteron.toml";
+    for (command, said) in [
+        (&["bounds", file][..], "psi"),
+        (&["tolerance", file], "direction"),
+        (&["limit", file, "requirements.transmission.max"], "certified"),
+        (&["size", "--cube", "200", "--gap", "0.1"], "smallest leg length"),
+        (&["largest-cube", "orthoglide-312.toml", "--gap", "0.1"], "largest cube: side between"),
+    ] {
+        let folder = Folder::with(&[file, "orthoglide-312.toml"]);
+        let run = folder.run_on_a_full_disk(&[command, &["-o", "."]].concat()).exits(4);
+        assert!(!run.says(&[said]).stdout.contains(".cert.json"), "{command:?}");
+        assert_eq!(folder.names(), ["orthoglide-312.toml", file], "{command:?}");
+    }
+}
+
 #[test]
 fn what_is_read_is_not_overwritten() {
     let folder = Folder::with(&["orthoglide-312.toml"]);
