@@ -24,8 +24,8 @@ pub const LARGEST_FACTOR: f64 = 10.0;
 const SPREAD: f64 = 100.0;
 /// Where an approach begins, relative to the value that it comes near to.
 const FAR: f64 = 0.1;
-/// A distance is near enough to one that is too near if it is at most this many times as far.
-const NEXT: f64 = 1.1;
+/// A distance is near enough to one that is too near if it is at most so many times as far, and the value so much less.
+const NEXT: (f64, f64) = (1.1, 1.02);
 /// Where a distance is too near, one this many times as far is tried; and from far away, one so much nearer.
 const FARTHER: f64 = 3.2;
 
@@ -236,7 +236,8 @@ impl Approach {
             (Some(far), None) if far > 1.0 => Some(far / FARTHER),
             (Some(far), None) => (far > self.near).then(|| (far * far.min(FAR)).max(self.near)),
             (Some(far), Some(near)) => {
-                (far > near * NEXT).then(|| (far * near).sqrt().max(far / FARTHER))
+                let is_near = far <= near * NEXT.0 && 1.0 + far <= (1.0 + near) * NEXT.1;
+                (!is_near).then(|| (far * near).sqrt().max(far / FARTHER))
             }
             (None, Some(near)) => (near < self.far.1).then(|| (near * FARTHER).max(self.far.0)),
         }
@@ -512,8 +513,8 @@ mod tests {
             Approach { first: 0.0075, far, ..Approach::from_afar(1.0, Succeeds::Below, 0.0075) };
         for (least, known, expected) in [
             (0.007, None, &[0.0075][..]),
-            (2.0, None, &[0.0075, 10.0, 3.13, 0.977, 1.75, 2.33, 2.02, 1.88]),
-            (30.0, None, &[0.0075, 10.0, 32.0, 17.9, 23.9, 27.7, 29.7]),
+            (2.0, None, &[0.0075, 10.0, 3.13, 0.977, 1.75, 2.33, 2.02, 1.88, 1.95, 1.985]),
+            (30.0, None, &[0.0075, 10.0, 32.0, 17.9, 23.9, 27.7, 29.7, 30.8, 30.2]),
             (1e5, None, &[0.0075, 10.0, 32.0, 102.0, 328.0, 1049.0]),
             (0.007, Some(0.3), &[0.03, 0.0075]),
             (0.02, Some(0.3), &[0.03, 0.0075, 0.015, 0.0212, 0.0178, 0.0194]),
