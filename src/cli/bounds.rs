@@ -120,7 +120,8 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     }
     let complete = rows.iter().all(|row| row.not_enclosed.is_none());
     let status = if complete { Status::Done } else { Status::Undecided };
-    unwritten.or(interrupt::unless_cancelled(status)?)
+    unwritten.told()?;
+    interrupt::unless_cancelled(status)
 }
 
 fn rows(

@@ -1,6 +1,6 @@
 //! From an answer to a certificate on the disk: what all commands that prove have in common.
 
-use super::{input, Failure, Status};
+use super::{input, Failure};
 use crate::files::{digest, output};
 pub use crate::questions::decide::as_written;
 use crate::report::{CertificateFile, EarlierFile};
@@ -60,9 +60,9 @@ impl Unwritten {
         }
     }
 
-    /// The first failure, if there is one; else this.
-    pub fn or(self, status: Status) -> Result<Status, Failure> {
-        self.0.map_or(Ok(status), Err)
+    /// The first failure, if there is one.
+    pub fn told(self) -> Result<(), Failure> {
+        self.0.map_or(Ok(()), Err)
     }
 }
 

@@ -158,7 +158,8 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         (_, _, None) if answer.gap.is_some_and(|found| found <= gap) => Status::Done,
         _ => Status::Undecided,
     };
-    unwritten.or(interrupt::unless_cancelled(status)?)
+    unwritten.told()?;
+    interrupt::unless_cancelled(status)
 }
 
 fn boxed(design: &Design) -> Result<&MachineClaim, Failure> {

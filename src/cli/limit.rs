@@ -201,7 +201,8 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         Format::Text => print::answer(&words(&answer, effort.quiet))?,
     }
     let status = if is_complete(&answer) { Status::Done } else { Status::Undecided };
-    unwritten.or(interrupt::unless_cancelled(status)?)
+    unwritten.told()?;
+    interrupt::unless_cancelled(status)
 }
 
 /// Whether a limit was found as near as was asked for, and none is left open: of a certified design

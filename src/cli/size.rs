@@ -132,7 +132,8 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         Format::Text => print::answer(&text(&answer, effort.quiet, started))?,
     }
     let status = if answer.gap_reached { Status::Done } else { Status::Undecided };
-    unwritten.or(interrupt::unless_cancelled(status)?)
+    unwritten.told()?;
+    interrupt::unless_cancelled(status)
 }
 
 /// The length that all legs have, if it is one exact number.

@@ -213,7 +213,8 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     }
     let complete = rows.iter().all(|row| row.gap_reached);
     let status = if complete { Status::Done } else { Status::Undecided };
-    unwritten.or(interrupt::unless_cancelled(status)?)
+    unwritten.told()?;
+    interrupt::unless_cancelled(status)
 }
 
 /// The widest tolerance of a row that is certified.
