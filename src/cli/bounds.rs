@@ -406,8 +406,8 @@ fn text(
     if rows.iter().any(|row| row.not_enclosed.is_none()) {
         let asked = rounded(asked, 2, Toward::Above);
         let text = format!(
-            "An extreme lies between its two decimals, relatively {asked} apart or less: one is refuted, \
-             as a bound, at the place named, the other is certified."
+            "An extreme lies between its two decimals, relatively {asked} apart or less where no width \
+             is named: one is refuted, as a bound, at the place named, the other is certified."
         );
         wrap(&mut out, &text, 2);
     }

@@ -63,7 +63,7 @@ struct Answer {
     /// A side that is certified, below the greatest.
     #[serde(skip_serializing_if = "Option::is_none")]
     min: Option<Expression>,
-    /// The centre of the cube of that side.
+    /// The centre of the cube of that side, or else of the side that is refuted.
     #[serde(skip_serializing_if = "Option::is_none")]
     centre: Option<[Exact; 3]>,
     /// A side for which no cube fits, above the greatest.
@@ -78,7 +78,7 @@ struct Answer {
     /// Why it is more than was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     missed: Option<&'static str>,
-    /// What fails first in the cube of side `max` about the same centre.
+    /// What fails first in the cube of side `max`, or `refuted_here`, about the same centre.
     #[serde(skip_serializing_if = "Option::is_none")]
     limited_by: Option<Counterexample>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -127,10 +127,13 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     }
     let found = reached(&bracket);
     let missed = match &side {
-        None if found.is_some_and(|found| found <= gap) || interrupt::is_cancelled() => None,
+        _ if interrupt::is_cancelled() => None,
+        None if found.is_some_and(|found| found <= gap) => {
+            bracket.is_short.then_some(size::NOT_BEST)
+        }
         None if bracket.endless => Some(ENDLESS),
         Some(_) if bracket.inside.is_some() || bracket.too_large.is_some() => None,
-        Some(_) if turns => Some(ONE_CENTRE),
+        Some(_) if turns && !bracket.out_of_time => Some(ONE_CENTRE),
         _ => Some(size::missed(bracket.out_of_time)),
     };
     let answer = Answer {
@@ -140,7 +143,11 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         limited_by: bracket.fails.as_deref().and_then(counterexample),
         length_unit: design.unit,
         min: bracket.inside.as_ref().map(|inside| inside.side.clone()),
-        centre: bracket.inside.map(|inside| inside.centre.map(Exact::Rational)),
+        centre: bracket
+            .inside
+            .map(|inside| inside.centre)
+            .or(bracket.centre.filter(|_| bracket.refuted_here.is_some()))
+            .map(|centre| centre.map(Exact::Rational)),
         max: bracket.too_large.map(|too_large| too_large.side),
         refuted_here: bracket.refuted_here.map(|refuted| refuted.side),
         certificates,
@@ -154,8 +161,9 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let status = match (&answer.min, &answer.max, side) {
         (Some(_), _, Some(_)) => Status::Decided(Verdict::Certified),
         (_, Some(_), Some(_)) => Status::Decided(Verdict::Refuted),
-        // Both sides are rounded to a hundredth of the gap.
-        (_, _, None) if answer.gap.is_some_and(|found| found <= gap) => Status::Done,
+        (_, _, None) if answer.gap.is_some_and(|found| found <= gap) && answer.missed.is_none() => {
+            Status::Done
+        }
         _ => Status::Undecided,
     };
     unwritten.told()?;

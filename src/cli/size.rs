@@ -22,6 +22,8 @@ use std::time::Instant;
 /// Boxes after which a size counts as not certified; of centres, as not refuted for every
 /// axis-aligned placement.
 const BOXES: u64 = 20_000;
+/// What is missed where both ends are near.
+pub const NOT_BEST: &str = "not, but the time was up before the best place of a cube was found";
 /// Significant digits of a size.
 const DIGITS: u32 = 15;
 
@@ -105,7 +107,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     interrupt::grant();
     let mut bar = effort.bar();
     let family = bar.run("place of the cube", 5, |control| {
-        Family::new(claim, &side, width, budget.shared(3), control)
+        Family::new(claim, &side, width, budget.shared(2), control)
     });
     let family = family.map_err(|error| explain(error, &design))?;
     let found = bar
@@ -115,7 +117,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         .run("every place", 1, |control| family.excluded(width, budget, control))
         .map_err(|error| explain(error, &design))?;
     drop(bar);
-    let out_of_time = found.out_of_time || excluded.out_of_time;
+    let out_of_time = found.out_of_time || excluded.out_of_time || family.out_of_time;
     let excluded = excluded.found;
     let nothing = found.certified.is_none() && found.refuted.is_none() && excluded.is_none();
     if nothing && interrupt::is_cancelled() {
@@ -123,15 +125,19 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     }
     let mut unwritten = Unwritten::default();
     let answer = answer(&family, (found, excluded), side, width, (arguments, &mut unwritten));
-    let why = !answer.gap_reached && !answer.interrupted;
-    let missed = why.then(|| missed(out_of_time));
+    let missed = match answer.interrupted {
+        false if !answer.gap_reached => Some(missed(out_of_time)),
+        false if family.out_of_time => Some(NOT_BEST),
+        _ => None,
+    };
     let length = common_length(claim);
     let answer = Answer { length, length_unit: design.unit, missed, ..answer };
     match effort.format {
         Format::Json => print::json(&answer)?,
         Format::Text => print::answer(&text(&answer, effort.quiet, started))?,
     }
-    let status = if answer.gap_reached { Status::Done } else { Status::Undecided };
+    let is_done = answer.gap_reached && answer.missed.is_none();
+    let status = if is_done { Status::Done } else { Status::Undecided };
     unwritten.told()?;
     interrupt::unless_cancelled(status)
 }

@@ -208,7 +208,7 @@ pub struct Approach {
     pub near: f64,
     /// The distance that is tried first.
     pub first: f64,
-    /// Where that is too near, the distances tried begin and end here.
+    /// Where that is too near, the distances tried are about these and between them.
     pub far: (f64, f64),
     /// A distance at which it is known to succeed: less is tried.
     pub known: Option<f64>,
@@ -329,7 +329,7 @@ pub fn bracket(
         enough: is_sure.then_some(start),
         limits: (expected / SPREAD, expected * SPREAD),
         gap: share * gap,
-        deadline: budget.deadline,
+        deadline: budget.shared(3).deadline,
     };
     let refuted = control.part([0.0, 0.1], |control| {
         frontier(&walk, control, |x, control| {

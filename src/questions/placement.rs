@@ -50,6 +50,15 @@ pub struct Cube {
     pub side: f64,
 }
 
+/// The best place found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placed {
+    /// The cube.
+    pub cube: Cube,
+    /// Whether with more time there may be a better one.
+    pub out_of_time: bool,
+}
+
 struct Cubes<'a> {
     sampler: Sampler<'a>,
     qualities: Vec<Quality>,
@@ -68,7 +77,7 @@ struct Cubes<'a> {
 /// relative `precision`; `None` where no centre of a grid fulfils the claim.
 ///
 /// Where the platform turns, they are to hold in every orientation of the claim's set. At the budget's
-/// deadline, or if it is cancelled, it has the best that was found.
+/// deadline, or if it is cancelled, it has the best that was found, and says so.
 ///
 /// # Errors
 /// If the claim is not well formed, or its workspace is not a box with a volume, of three
@@ -79,7 +88,7 @@ pub fn best_place(
     precision: f64,
     budget: Budget,
     control: &mut Control<'_>,
-) -> Result<Option<Cube>, NoAnswer> {
+) -> Result<Option<Placed>, NoAnswer> {
     let problem = Problem::new(claim)?;
     let cubes = Cubes::new(Sampler::new(claim, &problem)?, centres)?;
     let mut starts = cubes.starts();
@@ -87,18 +96,20 @@ pub fn best_place(
     starts.retain(|cube| cube.side > 0.0);
     starts.truncate(STARTS[cubes.turning()]);
     let finest = [FINEST, TURNING_FINEST][cubes.turning()];
-    let all = starts.len() as f64;
+    let (all, mut out_of_time) = (starts.len() as f64, false);
     let best = starts.into_iter().enumerate().map(|(number, start)| {
         let found = match cubes.is_endless(&start) {
             true => start,
-            false => cubes.ascend(start, precision.max(finest), &|| {
-                budget.is_over() || control.is_cancelled()
+            false => cubes.ascend(start, precision.max(finest), &mut || {
+                out_of_time |= budget.is_over() || control.is_cancelled();
+                out_of_time
             }),
         };
         (control.progress)(Progress { boxes: 0, share: (number + 1) as f64 / all });
         found
     });
-    Ok(best.max_by(|a, b| a.side.total_cmp(&b.side)))
+    let best = best.max_by(|a, b| a.side.total_cmp(&b.side));
+    Ok(best.map(|cube| Placed { cube, out_of_time }))
 }
 
 /// Whether a cube that [`best_place`] has found in a workspace of this size only ends where the
@@ -215,7 +226,7 @@ impl<'a> Cubes<'a> {
 
     /// A pattern search over the centre: axes, diagonals and pseudo-random directions, for the
     /// greatest side has ridges.
-    fn ascend(&self, start: Cube, precision: f64, is_over: &dyn Fn() -> bool) -> Cube {
+    fn ascend(&self, start: Cube, precision: f64, is_over: &mut dyn FnMut() -> bool) -> Cube {
         let mut best = start;
         best.side = self.side(&best.centre, best.side, precision);
         let mut step = self.size / GRID[0] as f64;
@@ -286,4 +297,28 @@ fn turns(sampler: &Sampler<'_>) -> Vec<Vec<f64>> {
     turns.sort_by(|a, b| a.partial_cmp(b).unwrap_or(Ordering::Equal));
     turns.dedup();
     turns
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::Design;
+    use std::sync::atomic::AtomicBool;
+    use std::time::Instant;
+
+    #[test]
+    fn a_search_that_is_cut_short_says_so() {
+        let text = include_str!("../../tests/designs/urane-sx-type.toml");
+        let claim = Design::parse(text, "urane-sx-type.toml").expect("a design").claim;
+        let cancel = AtomicBool::new(false);
+        let control = &mut Control { cancel: &cancel, progress: &mut |_| {} };
+        let mut placed = |deadline| {
+            let budget = Budget { max_boxes: 1, deadline };
+            let found = best_place(&claim, Centres::Workspace, 1e-6, budget, control);
+            found.expect("a box").expect("a place")
+        };
+        let (best, cut) = (placed(None), placed(Some(Instant::now())));
+        assert!(!best.out_of_time && cut.out_of_time);
+        assert!(cut.cube.side > 0.0 && cut.cube.side < best.cube.side);
+    }
 }

@@ -15,7 +15,7 @@ use crate::questions::frontier::{
     approach, bracket, decimal, About, Approach, Approached, Bracket, NoAnswer, Succeeds,
 };
 use crate::questions::largest_cube::exclude;
-use crate::questions::placement::{best_place, cube_about, is_endless, Centres, Cube};
+use crate::questions::placement::{best_place, cube_about, is_endless, Centres, Placed};
 use crate::questions::tolerance::parameters;
 use crate::search::solver::value::depends_on_length;
 use crate::search::solver::{approximate, number};
@@ -60,6 +60,8 @@ pub struct Family {
     pub unknown: Unknown,
     /// The cube's centre for the size one; for size `x` it is `x` times this.
     pub centre: [BigRational; 3],
+    /// Whether with more time a better place of the cube may have been found.
+    pub out_of_time: bool,
     /// The size that the search in doubles expects.
     pub expected: f64,
     /// The machine of size one (for [`Unknown::LegLength`] up to the length).
@@ -83,14 +85,15 @@ impl Family {
         let claim = as_box(claim)?;
         scale_free(&claim)?;
         let orthoglide = leg_length(&claim);
-        let place = placed(&claim, orthoglide.is_some(), gap * PLACEMENT, budget, control)?;
+        let placed = placed(&claim, orthoglide.is_some(), gap * PLACEMENT, budget, control)?;
+        let Placed { cube: place, out_of_time } = placed;
         let (unknown, own) = match orthoglide {
             Some(length) => (Unknown::LegLength, length),
             None => (Unknown::Scale, 1.0),
         };
         let expected = side.to_f64().unwrap_or(f64::NAN) * own / place.side;
         let centre = place.centre.map(|x| signed(x / own, gap * PLACEMENT * place.side / own));
-        Ok(Family { unknown, centre, expected, claim, side: side.clone() })
+        Ok(Family { unknown, centre, out_of_time, expected, claim, side: side.clone() })
     }
 
     /// The claim about the machine of size `x`, and its cube. `None` where the numbers become too
@@ -238,7 +241,7 @@ fn placed(
     precision: f64,
     budget: Budget,
     control: &mut Control<'_>,
-) -> Result<Cube, NoAnswer> {
+) -> Result<Placed, NoAnswer> {
     let refused = |why: &str| NoAnswer::Claim(why.to_owned());
     let too_large = || refused("the design's numbers are too large");
     let [min, max] = bounding_box(&claim.workspace).ok_or_else(too_large)?;
@@ -261,7 +264,7 @@ fn placed(
             "of size, a workspace that holds such a point",
         )
     })?;
-    match is_endless(&place, width) {
+    match is_endless(&place.cube, width) {
         true => Err(NoAnswer::unfit(
             "requirements",
             "none that ends a cube: they hold in cubes of any size",

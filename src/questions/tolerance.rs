@@ -307,7 +307,7 @@ pub fn widest(
     // The best that can be hoped for, first.
     let near = gap * (1.0 - SHARE);
     let end = refuted.as_ref().and_then(|(t, _)| t.to_f64());
-    let to = end.unwrap_or(LIMITS.1 * scale);
+    let to = end.unwrap_or(LAST * scale);
     let distance = |(t, _): &Certified| Some(to / t.to_f64()? - 1.0);
     let known_distance = known.certified.as_ref().and_then(distance);
     let to = Approach {

@@ -298,6 +298,20 @@ fn quotient(text: &str) -> f64 {
     p.parse::<f64>().unwrap() / q.parse::<f64>().unwrap()
 }
 
+/// Beyond 90 degrees there is no bound of an angle: what is looked for so far out does not end the rest.
+#[test]
+fn bounds_of_an_angle_that_are_looked_for_beyond_a_right_one_are_not_found() {
+    let folder = Folder::new();
+    let design = include_str!("../designs/delta-leg-angle.toml");
+    let wide = design.replace("radius = 80", "radius = 120").replace("max = 50.1", "max = 89");
+    folder.write("d.toml", &wide);
+    for boxes in ["2", "10"] {
+        let run = folder.run(&["bounds", "d.toml", "--max-boxes", boxes]).exits(3);
+        run.says(&["leg angle", "not enclosed"]);
+        folder.run(&["summary", "d.toml", "--max-boxes", boxes]).exits(3);
+    }
+}
+
 #[test]
 fn bounds_say_where_they_are_wider_than_asked_for() {
     let folder = Folder::with(&["orthoglide-prototype-whole.toml", "orthoglide-tolerance.toml"]);

@@ -15,7 +15,7 @@ use crate::exact::arithmetic::at_most;
 use crate::questions::frontier::{
     approach, bracket, proof, About, Approach, Approached, NoAnswer, Succeeds,
 };
-use crate::questions::placement::{best_place, cube_about, is_endless, Centres, Cube};
+use crate::questions::placement::{best_place, cube_about, is_endless, Centres, Cube, Placed};
 use crate::search::solver::{self, approximate, number};
 use crate::search::{Budget, Control};
 use num_bigint::BigInt;
@@ -63,6 +63,10 @@ pub struct Bracket {
     pub fails: Option<Box<Certificate>>,
     /// Whether with more time the bounds may have been nearer.
     pub out_of_time: bool,
+    /// Whether with more time a better centre may have been found, where no claim is of all centres.
+    pub is_short: bool,
+    /// The centre of `refuted_here`.
+    pub centre: Option<[BigRational; 3]>,
 }
 
 /// Share of the gap that is left between the place found and either bound.
@@ -85,9 +89,9 @@ pub fn largest_cube(
     control: &mut Control<'_>,
 ) -> Result<Bracket, NoAnswer> {
     let place = control.part([0.0, 0.3], |control| {
-        best_place(claim, Centres::Workspace, gap * PLACEMENT, budget.shared(3), control)
+        best_place(claim, Centres::Workspace, gap * PLACEMENT, budget.shared(2), control)
     })?;
-    let Some(place) = place else {
+    let Some(Placed { cube: place, out_of_time: is_short }) = place else {
         return Ok(Bracket::default());
     };
     let budget = budget.at_most(BOXES);
@@ -95,7 +99,10 @@ pub fn largest_cube(
     if claim.orientation.is_some() {
         return match endless {
             true => Ok(Bracket { endless, ..Bracket::default() }),
-            false => about_one_centre(claim, &place, gap, budget, control),
+            false => {
+                let found = about_one_centre(claim, &place, gap, budget, control)?;
+                Ok(Bracket { is_short, out_of_time: found.out_of_time || is_short, ..found })
+            }
         };
     }
     let near = |succeeds| Approach::from_afar(place.side, succeeds, SHARE * gap);
@@ -118,7 +125,7 @@ pub fn largest_cube(
             Ok(excluded.map(|certificate| TooLarge { side, certificate }))
         })
     })?;
-    let out_of_time = inside.out_of_time || too_large.out_of_time;
+    let out_of_time = inside.out_of_time || too_large.out_of_time || is_short;
     let inside = inside.found.map(|(_, inside)| inside);
     let too_large = too_large.found.map(|(_, too_large)| too_large);
     let fails = match (&inside, &too_large) {
@@ -126,7 +133,7 @@ pub fn largest_cube(
             .and_then(|workspace| solver::refutation(&MachineClaim { workspace, ..claim.clone() })),
         _ => None,
     };
-    Ok(Bracket { inside, too_large, endless, fails, out_of_time, refuted_here: None })
+    Ok(Bracket { inside, too_large, endless, fails, out_of_time, ..Bracket::default() })
 }
 
 /// The greatest side that is certified, and the least that is refuted, about the centre of a place, of a
@@ -159,13 +166,11 @@ fn about_one_centre(
         Some(Inside { side: number(&side)?, centre: centre.clone(), certificate })
     });
     let fails = found.refuted.as_ref().map(|(_, certificate)| certificate.clone());
-    // About a centre that is told.
     let refuted_here = found
         .refuted
-        .filter(|_| inside.is_some())
         .and_then(|(side, certificate)| Some(TooLarge { side: number(&side)?, certificate }));
-    let out_of_time = found.out_of_time;
-    Ok(Bracket { inside, refuted_here, fails, out_of_time, ..Bracket::default() })
+    let (centre, out_of_time) = (Some(centre), found.out_of_time);
+    Ok(Bracket { inside, refuted_here, centre, fails, out_of_time, ..Bracket::default() })
 }
 
 /// Whether a cube of this side fits with its centre in the workspace of `claim`: at most one of the
@@ -182,13 +187,16 @@ pub fn cube_of_side(
     const FINE: f64 = 1e-9;
     let mut bracket = Bracket::default();
     let wanted = approximate(side).unwrap_or(f64::INFINITY);
-    let place = best_place(claim, Centres::Workspace, FINE * PLACEMENT, budget.shared(3), control)?;
+    let place = best_place(claim, Centres::Workspace, FINE * PLACEMENT, budget.shared(2), control)?;
+    bracket.is_short = place.is_some_and(|place| place.out_of_time);
+    let place = place.map(|place| place.cube);
     if let Some(place) = place.filter(|place| place.side >= wanted * (1.0 - 1e-12)) {
         bracket.inside = certified(claim, side, &place.centre, FINE, budget, control)?;
     }
+    bracket.out_of_time = bracket.is_short || budget.is_over();
     if bracket.inside.is_none() && claim.orientation.is_none() {
         let excluded = exclude(claim, side, budget, control)?;
-        bracket.out_of_time = budget.is_over();
+        bracket.out_of_time |= budget.is_over();
         bracket.too_large =
             excluded.map(|certificate| TooLarge { side: side.clone(), certificate });
     }

@@ -58,8 +58,8 @@ pub enum NotEnclosed {
     /// Some machine has a singularity, or a point out of reach, in the workspace.
     #[error("none: a singularity, or out of reach, inside")]
     Singular,
-    /// No proof was found, however wide.
-    #[error("not enclosed: no proof of a bound was found")]
+    /// No proof was found, however wide, or none of a bound that some point is known to be near.
+    #[error("not enclosed: no proof that is near enough was found")]
     Undecided,
     /// The time was up before.
     #[error("not enclosed: the time was up")]
@@ -119,7 +119,8 @@ pub fn enclose(
         for _ in 0..ROUNDS {
             let step = width * known.size()?;
             let outer = end(extreme, known.value, &step, 2).ok_or(NotEnclosed::Undecided)?;
-            let outer_claim = extreme.claim(claim, &outer).ok_or(NotEnclosed::Undecided)?;
+            // So far out there may be no bound: of an angle, 90 degrees.
+            let Some(outer_claim) = extreme.well_formed(claim, &outer) else { break };
             let is_loosest = *width >= loosest();
             let found = steps.next(control, 2, |control| {
                 let how = (&mut begun, is_loosest);

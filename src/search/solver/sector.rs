@@ -5,7 +5,7 @@ use super::refute::number;
 use super::sample::{Place, Quality, Sampler, Worst};
 use super::value::{alone, middle as range_middle, turns, Bounded};
 use super::{proof, refutation};
-use crate::search::{Budget, Control, Steps};
+use crate::search::{Budget, Control, Steps, Stop};
 use num_rational::BigRational;
 use num_traits::FromPrimitive;
 use orthocert_checker::certificate::Certificate;
@@ -54,10 +54,15 @@ pub fn enclose(
         let (inward, outward) = (&step * &third, &step * (&third + &third));
         let certified = [rounded(&(&lo - &outward), &step), rounded(&(&hi + &outward), &step)];
         let outer = within(claim, leg, &certified).ok_or(NotEnclosed::Undecided)?;
-        let budget = of_one_width(budget, &Problem::new(&outer)?);
+        // Of half a turn and more there is no such claim.
+        let Ok(problem) = Problem::new(&outer) else { return Ok(None) };
+        let budget = of_one_width(budget, &problem);
         let found = steps.next(control, 2, |control| proof(&outer, budget, control));
-        let Ok(certificate) = found else {
-            return if control.is_cancelled() { Err(NotEnclosed::Cancelled) } else { Ok(None) };
+        let certificate = match found {
+            Ok(certificate) => certificate,
+            Err(Stop::Cancelled) => return Err(NotEnclosed::Cancelled),
+            Err(Stop::Time) => return Err(NotEnclosed::Time),
+            Err(_) => return Ok(None),
         };
         let [lower, upper] = &certified;
         let beyond = |ends: [&BigRational; 2]| {
