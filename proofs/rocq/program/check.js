@@ -5,12 +5,25 @@
 "use strict";
 const fs = require("fs"), os = require("os"), path = require("path");
 const { spawnSync } = require("child_process");
+const { Worker } = require("worker_threads");
 
 const [, , native, script, exact, mutants, ...files] = process.argv;
 require(path.resolve(script));
 const verify = globalThis.orthocert_verify;
 let failures = 0;
 const fail = (words) => { failures++; console.error(words); };
+// What JavaScript has to answer, too: asked in a thread of its own, which at the end says what was answered otherwise.
+const beside_this = new Worker(`
+  const { parentPort, workerData } = require("worker_threads"), others = [];
+  require(workerData);
+  parentPort.on("message", ([text, right]) => {
+    if (text === null) return parentPort.postMessage(others);
+    const answer = globalThis.orthocert_verify(text);
+    if (answer !== right) others.push(answer + " in JavaScript, for " + right + ": " + text);
+  });
+`, { eval: true, workerData: path.resolve(script) });
+beside_this.on("error", (error) => { throw error; });
+const in_javascript = (text, right) => beside_this.postMessage([text, right]);
 
 // xorshift: the same draw on every run.
 let state = 0x9e3779b9;
@@ -109,7 +122,7 @@ if (of_design.includes("REJECTED")) fail(`rejected: ${of_designs.filter((_, i) =
 const two_poses = ["hexapod-flat-refuted", "hexapod-yaw-refuted"].map((name) => fs.readFileSync(path.join(made, `${name}.cert.json`), "latin1"));
 const one_of = path.join(made, "singular.json");
 const two_answers = (text) => { fs.writeFileSync(one_of, text); return [exactly(one_of), natively([one_of])[0]]; };
-const three_answers = (text) => [...two_answers(text), verify(text)];
+const three_answers = (text) => { const answers = two_answers(text); in_javascript(text, answers[1]); return answers; };
 // Ever nearer to the last number that is accepted, from one that is rejected, in JavaScript at both ends of what is left: that number.
 const last_number = (text, rejected, accepted, steps, name, verdict = "CERTIFIED") => {
   const ends = [rejected, accepted], written = (x) => text(x.toFixed(15).replace(/\.?0+$/, ""));
@@ -118,7 +131,8 @@ const last_number = (text, rejected, accepted, steps, name, verdict = "CERTIFIED
     if (new Set(answers).size > 1 || ![verdict, "REJECTED"].includes(answers[0])) fail(`${name} at ${middle}: ${answers}`);
     if (answers[0] === verdict) accepted = middle; else rejected = middle;
   }
-  if (verify(written(accepted)) !== verdict || verify(written(rejected)) !== "REJECTED") fail(`${name}, in JavaScript, between ${rejected} and ${accepted}`);
+  in_javascript(written(accepted), verdict);
+  in_javascript(written(rejected), "REJECTED");
   if (steps > 1 && (rejected === ends[0] || accepted === ends[1])) fail(`${name}: no last number`);
   return written(accepted);
 };
@@ -234,7 +248,9 @@ read.push(made_as);
     if (answers[0] === "CERTIFIED") shown = n; else not_shown = n;
   }
   agrees(one_of, natively([one_of])[0]);
-  if (verify(fan(two(shown))) !== "CERTIFIED" || verify(fan(two(not_shown))) !== "REJECTED" || not_shown === 2 ** 10) fail(`fan as made: ${shown} and ${not_shown}, in JavaScript`);
+  in_javascript(fan(two(shown)), "CERTIFIED");
+  in_javascript(fan(two(not_shown)), "REJECTED");
+  if (not_shown === 2 ** 10) fail(`fan as made: ${shown} and ${not_shown}`);
   read.push(fan(two(shown)));
 }
 console.log("fans at control points: with one answer at nine multiples");
@@ -1031,7 +1047,9 @@ const beside = fs.mkdtempSync(path.join(os.tmpdir(), "cubes-"));
 const one = path.join(beside, "one.json");
 const all = (text) => {
   fs.writeFileSync(one, text);
-  return [verify(text), exactly(one)];
+  const [formal] = natively([one]);
+  in_javascript(text, formal);
+  return [formal, exactly(one)];
 };
 // Ever nearer to the last bound with which what is made of it is accepted.
 const narrowed = (text, low, high, steps = 40) => {
@@ -1702,11 +1720,15 @@ try {
         console.log(`accepted by orthocert-check alone: ${texts[i].trim()}`);
       }
       else fail(`mutant: ${answer}, and ${right} by orthocert-check: ${texts[i]}`);
-      if (i % 20 === 0 && verify(texts[i]) !== answer) fail(`mutant: ${answer} natively alone: ${texts[i]}`);
+      if (i % 20 === 0) in_javascript(texts[i], answer);
     });
   }
 } finally {
   fs.rmSync(folder, { recursive: true });
 }
 console.log(`mutants: ${Object.entries(count).map(([name, n]) => `${n} ${name}`).join(", ")}`);
-if (failures) process.exit(1);
+beside_this.on("message", (others) => {
+  others.forEach(fail);
+  process.exit(failures ? 1 : 0);
+});
+in_javascript(null);
