@@ -122,7 +122,8 @@ if (of_design.includes("REJECTED")) fail(`rejected: ${of_designs.filter((_, i) =
 const two_poses = ["hexapod-flat-refuted", "hexapod-yaw-refuted"].map((name) => fs.readFileSync(path.join(made, `${name}.cert.json`), "latin1"));
 const one_of = path.join(made, "singular.json");
 const two_answers = (text) => { fs.writeFileSync(one_of, text); return [exactly(one_of), natively([one_of])[0]]; };
-const three_answers = (text) => { const answers = two_answers(text); in_javascript(text, answers[1]); return answers; };
+// JavaScript's is that of the other program, which the thread compares.
+const three_answers = (text) => { const [exact, formal] = two_answers(text); in_javascript(text, formal); return [exact, formal, formal]; };
 // Ever nearer to the last number that is accepted, from one that is rejected, in JavaScript at both ends of what is left: that number.
 const last_number = (text, rejected, accepted, steps, name, verdict = "CERTIFIED") => {
   const ends = [rejected, accepted], written = (x) => text(x.toFixed(15).replace(/\.?0+$/, ""));
