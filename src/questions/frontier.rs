@@ -229,6 +229,15 @@ impl Approach {
         decimal(value, distance)
     }
 
+    /// How far a value is.
+    pub fn distance(&self, value: &BigRational) -> Option<f64> {
+        let value = value.to_f64()?;
+        Some(match self.succeeds {
+            Succeeds::Below => self.to / value - 1.0,
+            Succeeds::Above => value / self.to - 1.0,
+        })
+    }
+
     /// The distance to be tried after the nearest success and the farthest failure.
     fn next(&self, success: Option<f64>, failure: Option<f64>) -> Option<f64> {
         match (success, failure) {

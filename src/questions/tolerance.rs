@@ -9,8 +9,8 @@
 use crate::exact::arithmetic::apply;
 use crate::exact::Exact;
 use crate::questions::frontier::{
-    approach, frontier, refutation, unless_cancelled, Approach, Approached, Bracket, Certified,
-    NoAnswer, Succeeds, Walk, LARGEST_FACTOR,
+    approach, frontier, refutation, unless_cancelled, Approach, Approached, Bracket, NoAnswer,
+    Succeeds, Walk, LARGEST_FACTOR,
 };
 use crate::report::exactly;
 use crate::search::solver::enclose::of_one_width;
@@ -308,14 +308,8 @@ pub fn widest(
     let near = gap * (1.0 - SHARE);
     let end = refuted.as_ref().and_then(|(t, _)| t.to_f64());
     let to = end.unwrap_or(LAST * scale);
-    let distance = |(t, _): &Certified| Some(to / t.to_f64()? - 1.0);
-    let known_distance = known.certified.as_ref().and_then(distance);
-    let to = Approach {
-        first: near,
-        far: FAR,
-        known: known_distance,
-        ..Approach::from_afar(to, Succeeds::Below, near)
-    };
+    let to = Approach { first: near, far: FAR, ..Approach::from_afar(to, Succeeds::Below, near) };
+    let to = Approach { known: known.certified.as_ref().and_then(|(t, _)| to.distance(t)), ..to };
     let certified = control
         .part([0.6, 1.0], |control| certified(claim, scheme, (&to, point), budget, control))?;
     let out_of_time = certified.out_of_time || budget.is_over() || control.is_cancelled();
@@ -346,7 +340,7 @@ fn certified(
     let few = few.filter(|few| is_endless && few.max_boxes < budget.max_boxes);
     let Some(few) = few else { return prove(to, budget, control) };
     let quick = control.part([0.0, 0.5], |control| prove(to, few, control))?;
-    let distance = quick.found.as_ref().and_then(|(t, _)| Some(to.to / t.to_f64()? - 1.0));
+    let distance = quick.found.as_ref().and_then(|(t, _)| to.distance(t));
     if !ran_out.get() {
         return Ok(quick);
     }

@@ -99,7 +99,7 @@ fn a_small_budget_leaves_a_looser_exclusion() {
     let run = folder.run(&["size", "--cube", "200", "--max-boxes", "2000"]).exits(0);
     run.says(&[
         "smallest leg length for a cube of side 200 mm: between 309.6",
-        "refuted       310.58272",
+        "refuted       310.5827299 mm, for this placement",
         "excluded      309.6",
         "limited by    greatest psi <= 2",
         "for every axis-aligned placement",

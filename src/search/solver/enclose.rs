@@ -161,11 +161,10 @@ pub(super) fn narrowest<T>(
         wider.extend(wider.last().map(|last| last + last));
     }
     let first = if is_short { &[last, last / 2, 0][..] } else { &[0, last] };
-    let first = first.iter().copied().chain(last + 1..wider.len());
     // Found at `holds`, and nothing at and below `fails`.
     let (mut fails, mut holds) = (None, wider.len());
     let mut best = None;
-    let mut next = first;
+    let mut next = first.iter().copied().chain(last + 1..wider.len());
     loop {
         let asked = next.find(|k| *k < holds && fails.is_none_or(|fails| *k > fails));
         let between = fails.filter(|fails| best.is_some() && holds - fails > 1);

@@ -259,8 +259,7 @@ fn interrupted(budget: &Budget, cancel: &AtomicBool) -> Result<(), Stop> {
     if cancel.load(Ordering::Relaxed) {
         return Err(Stop::Cancelled);
     }
-    let is_over = budget.is_over();
-    if is_over {
+    if budget.is_over() {
         Err(Stop::Time)
     } else {
         Ok(())
