@@ -38,7 +38,7 @@ impl<N: Clone + Default> Triangle<N> {
     }
 
     /// Row `i`, from its diagonal on.
-    pub(crate) fn row(&self, i: usize) -> &[N] {
+    pub fn row(&self, i: usize) -> &[N] {
         &self.entries[self.start(i)..][..self.n - i]
     }
 

@@ -438,25 +438,38 @@ impl<E: Enclosure> Over<'_, E> {
         })
     }
 
-    /// Whether `Y^T A + A^T Y - Y^T D Y + rest I`, if it is said so with `D`, is positive definite at a vertex: for all
-    /// machines, where tolerances are apart. Row `i` then changes it by `Y_i s^T + s^T Y_i`, `2 s` the change of
-    /// `2 A_i - D_i Y_i`.
+    /// Whether [`Over::lower`] is positive definite at a vertex; by its parts, where these are given and enough.
     fn is_lower(
         &self,
         rows: &[Row<Formula>],
         v: Vertex,
         rest: &E::Number,
-        (evidence, with_d): (&Multiplier, bool),
+        evidence: (&Multiplier, bool),
         parts: Option<&[Triangle<E::Number>]>,
     ) -> Option<bool> {
+        let e = self.slopes.arithmetic;
+        if let Some(parts) = parts {
+            if self.start(width(rows), rest)?.eliminate_with(e, parts, v).is_some() {
+                return Some(true);
+            }
+        }
+        Some(is_positive_definite(e, &self.lower(rows, v, rest, evidence)?))
+    }
+
+    /// `Y^T A + A^T Y - Y^T D Y + rest I`, if it is said so with `D`, at a vertex: where tolerances are apart, less what they
+    /// change. Row `i` changes it by `Y_i s^T + s^T Y_i`, `2 s` the change of `2 A_i - D_i Y_i`.
+    pub fn lower(
+        &self,
+        rows: &[Row<Formula>],
+        v: Vertex,
+        rest: &E::Number,
+        (evidence, with_d): (&Multiplier, bool),
+    ) -> Option<Triangle<E::Number>> {
         let (e, m, places) = (self.slopes.arithmetic, width(rows), evidence.places);
         if !evidence.is_of(rows.len(), m) {
             return None;
         }
         let mut t = self.start(m, rest)?;
-        if parts.is_some_and(|parts| t.clone().eliminate_with(e, parts, v).is_some()) {
-            return Some(true);
-        }
         let (zero, one) = (e.integer(0)?, e.integer(1)?);
         let toward = self.toward(<[_]>::first)?;
         let mut all = Vec::new();
@@ -486,7 +499,7 @@ impl<E: Enclosure> Over<'_, E> {
         for (i, fixed, changes) in all {
             self.less(i, &mut t, &fixed, changes, &directions)?;
         }
-        Some(is_positive_definite(e, &t))
+        Some(t)
     }
 
     /// **Greatest singular value.** If `[[D, A], [A^T, k^2 I]]` is positive definite at the vertices, then
@@ -497,25 +510,34 @@ impl<E: Enclosure> Over<'_, E> {
     /// end: the complement increases with them. Where tolerances are apart, row `i` changes the matrix by
     /// `e_i s^T + s e_i^T`, `s = (D_i/2, A_i)` of the change.
     pub fn sigma_max(&self, rows: &[Row<Formula>], k_squared: AtVertex<'_, E::Number>) -> bool {
-        let e = self.slopes.arithmetic;
         self.at_vertices(rows, |v| {
-            let toward = self.toward(<[_]>::last)?;
-            let start = self.start(width(rows), &self.less_inside(k_squared(v)?, v)?)?;
-            let mut rest = toward.matrix(e, start)?;
-            // Each D_i with its row of A alone: the other D_j are not touched by its elimination.
-            for (i, row) in rows.iter().enumerate() {
-                let (row, changes) = self.row(i, row, v)?;
-                let row = toward.vector(e, row)?;
-                let (d, a) = row.split_last()?;
-                let [least, _] = e.ends(d);
-                let mut first = std::iter::once(least).chain(a.iter().cloned()).collect();
-                if !changes.is_empty() || self.together.is_some() {
-                    (first, rest) = self.less_row((i, d, a), (first, rest), &changes, &toward)?;
-                }
-                eliminate(e, &first, &mut rest.entries)?;
-            }
-            Some(is_positive_definite(e, &rest))
+            let rest = self.upper(rows, v, &self.less_inside(k_squared(v)?, v)?)?;
+            Some(is_positive_definite(self.slopes.arithmetic, &rest))
         })
+    }
+
+    /// `k^2 I - A^T D^-1 A` at a vertex, where all `D_i` are positive: where tolerances are apart, less what they change.
+    pub fn upper(
+        &self,
+        rows: &[Row<Formula>],
+        v: Vertex,
+        k_squared: &E::Number,
+    ) -> Option<Triangle<E::Number>> {
+        let (e, toward) = (self.slopes.arithmetic, self.toward(<[_]>::last)?);
+        let mut rest = toward.matrix(e, self.start(width(rows), k_squared)?)?;
+        // Each D_i with its row of A alone: the other D_j are not touched by its elimination.
+        for (i, row) in rows.iter().enumerate() {
+            let (row, changes) = self.row(i, row, v)?;
+            let row = toward.vector(e, row)?;
+            let (d, a) = row.split_last()?;
+            let [least, _] = e.ends(d);
+            let mut first = std::iter::once(least).chain(a.iter().cloned()).collect();
+            if !changes.is_empty() || self.together.is_some() {
+                (first, rest) = self.less_row((i, d, a), (first, rest), &changes, &toward)?;
+            }
+            eliminate(e, &first, &mut rest.entries)?;
+        }
+        Some(rest)
     }
 
     /// `[[D_i, A_i], [A_i^T, ..]]`, by its first row and the rest, less what tolerances change of the row. The direction is

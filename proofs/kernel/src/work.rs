@@ -14,22 +14,18 @@ use crate::rejected::Rejected;
 use crate::vary::Numbers;
 use serde::Serialize;
 
-/// Units of work for each byte of a certificate: twice [`LEAST_BYTES`] take a second or so.
+/// What the tree of a single machine, or of a cube, may ask for.
+pub(crate) const OF_ONE: usize = 8 * MOST_WORK;
+/// Units of work for each byte of an atlas: twice [`LEAST_BYTES`] take a second or so.
 pub const WORK_A_BYTE: usize = 36;
 /// Work of a tree (`step/work.rs`) that is a unit.
 pub(crate) const OF_TREES: usize = 96;
-/// A certificate may ask for the work of so many bytes, however short it is.
+/// It may ask for the work of so many bytes, however short it is.
 pub const LEAST_BYTES: usize = 100_000;
 
 /// The bytes of a text.
 pub(crate) fn bytes(part: &impl Serialize) -> usize {
     serde_json::to_string(part).map_or(0, |text| text.len())
-}
-
-/// The work that a tree may ask for in a certificate of so many bytes: [`MOST_WORK`] in one of [`LEAST_BYTES`] or
-/// fewer, in proportion in one of up to eight times as many.
-pub(crate) fn of_bytes(bytes: usize) -> usize {
-    MOST_WORK / 1000 * (bytes.clamp(LEAST_BYTES, 8 * LEAST_BYTES) / (LEAST_BYTES / 1000))
 }
 
 /// Takes so many units of what is left.

@@ -72,8 +72,8 @@ impl<E: Enclosure> Checker<'_, E> {
                 let each = (m + 2).pow(2) + ((m + 1).pow(3) << m) / 6;
                 let together = self.together_of(test, inner, ends).saturating_mul(each);
                 let together = together.saturating_mul(points);
-                let matrices = at_points(obligation, points);
-                let all = [first, pairs, together, matrices];
+                let eliminated = at_points(obligation, points);
+                let all = [first, pairs, together, eliminated];
                 [entries, all.into_iter().fold(0, usize::saturating_add)]
             }
             _ => [at_points(obligation, 1 << m), 0],
