@@ -84,16 +84,19 @@ impl Over<'_> {
         // Of one scale are what no other evidence shows: fewer checkers know of it.
         let scales = [false, true].into_iter().take(1 + usize::from(self.prover.has_scales()));
         let machines = scales.flat_map(|scaled| {
-            [self.worst_machine(&worst, scaled), Some(self.middle_machine(scaled))]
+            let worst = self.worst_machine(&worst, scaled).map(|ends| (ends, &LENGTHS[..most]));
+            // What shorter directions show of the machine in the middle, they mostly do of the worst one.
+            let few = if worst.is_some() { 1 } else { most };
+            [worst, Some((self.middle_machine(scaled), &LENGTHS[..few]))]
         });
-        let machines: Vec<String> = machines.flatten().collect();
-        let from = |ends: &str, all: &[f64]| self.apart_from(test, &worst, (ends, &all[..most]));
-        machines.iter().find_map(|ends| from(ends, &LENGTHS)).or_else(|| {
+        let machines: Vec<(String, &[f64])> = machines.flatten().collect();
+        let from = |ends: &str, all: &[f64]| self.apart_from(test, &worst, (ends, all));
+        machines.iter().find_map(|(ends, all)| from(ends, all)).or_else(|| {
             let by = self.of_second_order(test)?;
             // Of one scale, where directions are so: nothing is lost by that.
             let mut last = machines[machines.len().saturating_sub(2)..].iter();
-            let second = |ends| self.to_second_order(ends, &by);
-            last.find_map(|ends| from(&second(ends), &LENGTHS_OF_SECOND_ORDER))
+            let second = |ends: &str| self.to_second_order(ends, &by);
+            last.find_map(|(ends, _)| from(&second(ends), &LENGTHS_OF_SECOND_ORDER[..most]))
         })
     }
 

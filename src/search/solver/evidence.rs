@@ -34,6 +34,8 @@ pub struct Prover<'a> {
     pub chords: Option<Multiplier>,
     /// Whether all legs have scaled rows.
     pub is_scaled: bool,
+    /// The machine's rows: plain, divided and, where legs have them, scaled.
+    rows: [Vec<Row<Formula>>; 3],
     pub(super) checker: Checker<'a, Doubles>,
 }
 
@@ -51,7 +53,18 @@ impl<'a> Prover<'a> {
         let checker = Checker::new(problem, &Doubles, parameters, tight);
         let checker = checker.with_chords(chords.clone());
         let is_scaled = problem.legs.iter().all(|leg| leg.scaled.is_some());
-        Ok(Prover { problem, root, chords, is_scaled, checker })
+        let legs = || problem.legs.iter();
+        let rows = [
+            legs().map(|leg| leg.row.clone()).collect(),
+            legs().map(|leg| leg.divided.clone()).collect(),
+            legs().filter(|_| is_scaled).filter_map(|leg| leg.scaled.clone()).collect(),
+        ];
+        Ok(Prover { problem, root, chords, is_scaled, rows, checker })
+    }
+
+    /// The machine's rows; none where they have no such form.
+    pub(super) fn rows(&self, form: Form) -> &[Row<Formula>] {
+        &self.rows[form as usize]
     }
 
     /// The claim's numbers, nearly.
@@ -289,17 +302,7 @@ impl Over<'_> {
 
     /// The machine's rows.
     pub fn own(&self, form: Form, at: At) -> Option<Rows> {
-        let rows: Option<Vec<&Row<Formula>>> = self
-            .problem()
-            .legs
-            .iter()
-            .map(|leg| match form {
-                Form::Plain => Some(&leg.row),
-                Form::Divided => Some(&leg.divided),
-                Form::Scaled => leg.scaled.as_ref(),
-            })
-            .collect();
-        self.rows(rows?.into_iter(), at)
+        self.rows(self.prover.rows(form).iter(), at)
     }
 
     /// Rows somewhere; `None` unless all `D_i` are positive there.

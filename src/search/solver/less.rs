@@ -1,11 +1,16 @@
 //! Evidence with the workspace's and the orientations' own inequalities: how much of them is taken.
 
+use super::doubles::{half_width, middle, Doubles, Pair};
 use super::evidence::{At, Over};
-use super::rows::{between, matrix, Form, Rows};
-use nalgebra::DMatrix;
+use super::rows::{are_moderate, between, matrix, Form};
+use nalgebra::{DMatrix, SymmetricEigen};
 use orthocert_kernel::cell::Vertex;
 use orthocert_kernel::certificate::Evidence;
+use orthocert_kernel::definite::Triangle;
+use orthocert_kernel::formula::Formula;
 use orthocert_kernel::quantity::Test;
+use orthocert_kernel::test::tolerances::Tolerances;
+use orthocert_kernel::test::{self, Multiplier, Row};
 use std::cell::OnceCell;
 
 /// Parts of the interval of multiples from which a short one is taken.
@@ -14,13 +19,17 @@ const MULTIPLES: [[f64; 2]; 3] = [[0.25, 0.75], [0.02, 0.25], [0.75, 0.98]];
 const LEFT: [f64; 2] = [0.5, 0.9];
 /// Halvings to the most that is left.
 const HALVINGS: usize = 30;
+/// Points, at most, by which multiples are chosen first.
+const FEW_POINTS: usize = 64;
+/// Signs that are tried for the worst matrix.
+const MOST_SIGNS: usize = 4;
 /// Powers of two tried as multiples, where what a test leaves is not known.
 const POWERS: std::ops::RangeInclusive<i32> = -8..=4;
 
-/// Multiples `low < mu < high` with which `margin > mu g` at all points; `None` where a margin is not known.
-fn interval(margins: impl IntoIterator<Item = Option<f64>>, g: &[f64]) -> Option<Option<[f64; 2]>> {
+/// Multiples `low < mu < high` with which `margin > mu g` at all points, given both; `None` where a margin is not known.
+fn interval(points: impl IntoIterator<Item = (Option<f64>, f64)>) -> Option<Option<[f64; 2]>> {
     let (mut low, mut high) = (0f64, f64::INFINITY);
-    for (margin, &g) in margins.into_iter().zip(g) {
+    for (margin, g) in points {
         let margin = margin?;
         if g > 0.0 {
             high = high.min(margin / g);
@@ -37,7 +46,8 @@ fn interval(margins: impl IntoIterator<Item = Option<f64>>, g: &[f64]) -> Option
 
 /// The same of what is left, `margin - mu g`, where this is at least a part of the most there is; and the most.
 pub fn best(margins: &[f64], g: &[f64], part: f64) -> Option<(f64, [f64; 2])> {
-    let above = |least: f64| interval(margins.iter().map(|m| Some(m - least)), g).flatten();
+    let above =
+        |least: f64| interval(margins.iter().zip(g).map(|(m, &g)| (Some(m - least), g))).flatten();
     let (mut low, mut high) =
         margins.iter().fold((f64::INFINITY, 0.0), |(low, high), &m| (m.min(low), m.max(high)));
     low = low.max(0.0);
@@ -81,18 +91,29 @@ impl Over<'_> {
         let holds = |evidence: Evidence| self.shows(test, &evidence).then_some(evidence);
         let points: Vec<Vertex> = self.formulas.vertices().collect();
         let known = vec![OnceCell::new(); points.len()];
-        let of = |(known, &v): (&OnceCell<Option<f64>>, &Vertex)| *known.get_or_init(|| margin(v));
-        let margins = || known.iter().zip(&points).map(of);
+        let of = |k: usize| *known[k].get_or_init(|| margin(points[k]));
         let with = |with: &With, (n, places)| with(Box::new(evidence.clone()), n, places);
         for (wrap, g) in &all {
-            let Some(multiples) = interval(margins(), g) else {
+            // First those of which a margin that is not positive tells that no multiple is of use.
+            let mut order: Vec<usize> = (0..points.len()).collect();
+            order.sort_by(|&i, &j| g[j].total_cmp(&g[i]));
+            order.sort_by_key(|&k| k != self.formulas.first);
+            let multiples =
+                |step: usize| interval(order.iter().step_by(step).map(|&k| (of(k), g[k])));
+            // Multiples that are right for some points mostly are so for all.
+            let few = points.len().div_ceil(FEW_POINTS);
+            let Some(some) = multiples(few) else {
                 let mut tried = all.iter().flat_map(|(wrap, _)| POWERS.map(move |k| (wrap, k)));
                 return tried.find_map(|(wrap, k)| {
                     holds(with(wrap, between(f64::from(k).exp2(), f64::from(k).exp2())?))
                 });
             };
-            let Some(multiples) = multiples else { continue };
-            let known: Vec<f64> = margins().flatten().collect();
+            let first = some.filter(|_| few > 1).and_then(|some| short(some).next());
+            if let Some(found) = first.and_then(|n| holds(with(wrap, n))) {
+                return Some(found);
+            }
+            let Some(multiples) = some.and_then(|_| multiples(1)?) else { continue };
+            let known: Vec<f64> = (0..points.len()).filter_map(of).collect();
             let others = LEFT.iter().filter_map(|&part| best(&known, g, part));
             let others = others.filter_map(|(_, [low, high])| between(low, high));
             let found = short(multiples).chain(others).find_map(|n| holds(with(wrap, n)));
@@ -103,9 +124,9 @@ impl Over<'_> {
         let [(inside, t), (turned, g)] = &all[..] else { return None };
         POWERS.into_iter().find_map(|k| {
             let mu = f64::from(k).exp2();
-            let left = margins().zip(t).map(|(m, t)| Some(m? - mu * t));
+            let left = (0..points.len()).map(|k| (of(k).map(|m| m - mu * t[k]), g[k]));
             let inner = with(inside, between(mu, mu)?);
-            let mut multiples = short(interval(left, g)??);
+            let mut multiples = short(interval(left)??);
             multiples.find_map(|(n, places)| holds(turned(Box::new(inner.clone()), n, places)))
         })
     }
@@ -161,12 +182,10 @@ impl Over<'_> {
         self.formulas.vertices().map(|v| self.at(g, At::Vertex(v))).collect()
     }
 
-    /// The least eigenvalue, or value, of what a test wants positive, at a vertex or control point; of
-    /// some tests it is not known.
+    /// The least eigenvalue, or value, of what a test wants positive, at a vertex or control point, less what tolerances
+    /// change, or somewhat more; of some tests it is not known.
     fn margin(&self, test: &Test, evidence: &Evidence, v: Vertex) -> Option<f64> {
-        let least = |t: DMatrix<f64>| t.symmetric_eigenvalues().min();
         let at = At::Vertex(v);
-        let greatest = |rows: Rows| rows.square().symmetric_eigenvalues().max();
         let form = match evidence {
             Evidence::LowerDivided(_) | Evidence::Divided => Form::Divided,
             _ if self.formulas.controls.is_some() => Form::Scaled,
@@ -174,57 +193,152 @@ impl Over<'_> {
         };
         let weight = self.problem().weight.filter(|_| form == Form::Scaled);
         let weight = weight.map_or(Some(1.0), |weight| self.at(weight, at))?;
-        let own = || -> Option<Rows> { self.own(form, at) };
+        let own = self.prover.rows(form);
+        let lower =
+            |rows: &[Row<Formula>], square: f64, y| self.least_of_lower(rows, v, -square, y);
         match (test, evidence) {
-            (Test::SigmaMin(_), Evidence::Rank(y)) => Some(least(own()?.symmetric(&matrix(y)))),
+            (Test::SigmaMin(_), Evidence::Rank(y)) => lower(own, 0.0, (y, false)),
             (Test::SigmaMin(kappa), Evidence::Lower(y) | Evidence::LowerDivided(y)) => {
-                let kappa = self.centre(*kappa)? * weight;
-                Some(least(own()?.minorant(&matrix(y))) - kappa)
+                lower(own, self.centre(*kappa)? * weight, (y, true))
             }
             (Test::SigmaMax(k), Evidence::Test | Evidence::Divided) => {
-                Some(self.centre(*k)? * weight - greatest(own()?))
+                self.least_of_upper(own, v, self.centre(*k)? * weight)
             }
             (Test::Conditioning(c), Evidence::Conditioning(y, mu)) => {
-                let scale = (-f64::from(y.places)).exp2();
-                let signed = mu.iter().enumerate().map(|(k, &mu)| match k.checked_sub(1) {
-                    None => Some(mu as f64 * weight),
-                    Some(_) if mu == 0 => Some(0.0),
-                    Some(k) => Some(self.formulas.place(k, v)? as f64 * mu as f64),
-                });
-                let (mu, rows) = (scale * signed.sum::<Option<f64>>()?, own()?);
-                let lower = least(rows.minorant(&matrix(y))) - mu;
-                Some(lower.min(self.centre(*c)? * mu - greatest(rows)))
+                let mu = self.mu_there((mu, y.places), weight, v)?;
+                let upper = self.least_of_upper(own, v, self.centre(*c)? * mu)?;
+                Some(lower(own, mu, (y, true))?.min(upper))
+            }
+            (Test::Conditioning(c), Evidence::Lower(_) | Evidence::Test) => {
+                let half = self.formulas.half?;
+                let first = *half.mu.0.first()? as f64 * (-f64::from(half.mu.1)).exp2();
+                let mu = self.mu_at_centre(half)? + self.mu_there(half.mu, 1.0, v)? - first;
+                match evidence {
+                    Evidence::Lower(y) => lower(own, mu, (y, true)),
+                    _ => self.least_of_upper(own, v, self.centre(*c)? * mu),
+                }
             }
             (Test::Least(rows, kappa), Evidence::Lower(y)) => {
-                let rows = self.rows(rows.iter(), at)?;
-                Some(least(rows.minorant(&matrix(y))) - self.at(*kappa, at)?)
+                lower(rows, self.formulas.greatest_at(*kappa, v)?.1, (y, true))
             }
             (Test::Greatest(rows, k), Evidence::Test) => {
-                Some(self.at(*k, at)? - greatest(self.rows(rows.iter(), at)?))
+                self.least_of_upper(rows, v, self.formulas.least_at(*k, v)?.0)
             }
             (Test::OneToOne(rows), Evidence::Chords) => {
-                let y = matrix(self.prover.chords.as_ref()?);
-                Some(least(self.rows(rows.iter(), at)?.symmetric(&y)))
+                lower(rows, 0.0, (self.prover.chords.as_ref()?, false))
             }
+            // Of the one machine, as below.
             (Test::Solve(solve), Evidence::Lower(y)) => {
-                let (rows, y) = (own()?, matrix(y));
+                let (rows, y) = (self.own(form, at)?, matrix(y));
                 let t = &rows.a * y.transpose();
                 let mut t = &t + t.transpose() - weight * &y * y.transpose();
                 let i = solve.joint;
                 t[(i, i)] -= self.centre(solve.square)? * rows.d[i];
-                Some(least(t))
+                Some(t.symmetric_eigenvalues().min())
             }
-            (Test::AtLeast(f), _) => {
-                let low = self.formulas.own_at(*f, v)?;
-                Some(low.0)
-            }
-            (Test::Beyond(f, b), Evidence::Negative) => {
-                Some(-self.formulas.own_at(*f, v)?.1 - self.formulas.own_at(*b, v)?.1)
-            }
+            (Test::AtLeast(f), _) => Some(self.formulas.least_at(*f, v)?.0),
             (Test::Beyond(f, b), _) => {
-                Some(self.formulas.own_at(*f, v)?.0 - self.formulas.own_at(*b, v)?.1)
+                let [f, b] = [self.formulas.own_at(*f, v)?, self.formulas.own_at(*b, v)?];
+                let negative = *evidence == Evidence::Negative;
+                Some(if negative { -f.1 } else { f.0 } - b.1)
+            }
+            (_, Evidence::Together(inner, all, places)) => {
+                let together = Some((&all[..], *places));
+                let formulas = test::Over { together, inside: None, ..*self.formulas };
+                Over { formulas: &formulas, ..*self }.margin(test, inner, v)
             }
             _ => None,
         }
+    }
+
+    /// `mu_0, .., mu_m` over binary places, at a vertex or control point of this weight.
+    fn mu_there(&self, (mu, places): (&[i64], u32), weight: f64, v: Vertex) -> Option<f64> {
+        let signed = mu.iter().enumerate().map(|(k, &mu)| match k.checked_sub(1) {
+            None => Some(mu as f64 * weight),
+            Some(_) if mu == 0 => Some(0.0),
+            Some(k) => Some(self.formulas.place(k, v)? as f64 * mu as f64),
+        });
+        Some((-f64::from(places)).exp2() * signed.sum::<Option<f64>>()?)
+    }
+
+    fn least_of_lower(
+        &self,
+        rows: &[Row<Formula>],
+        v: Vertex,
+        rest: f64,
+        y: (&Multiplier, bool),
+    ) -> Option<f64> {
+        self.least_of(rows, |formulas| formulas.lower(rows, v, &(rest, rest), y))
+    }
+
+    fn least_of_upper(&self, rows: &[Row<Formula>], v: Vertex, k_squared: f64) -> Option<f64> {
+        self.least_of(rows, |formulas| formulas.upper(rows, v, &(k_squared, k_squared)))
+    }
+
+    /// What is least of a matrix, with nothing taken off where it is about the directions of a wedge, in whose coordinates that
+    /// is; without end where there is no such matrix, whatever the multiple.
+    fn least_of(
+        &self,
+        rows: &[Row<Formula>],
+        matrix: impl Fn(&test::Over<'_, Doubles>) -> Option<Triangle<Pair>>,
+    ) -> Option<f64> {
+        let all = match (self.formulas.wedge, self.formulas.tolerances) {
+            (Some(_), Some(all)) => {
+                let none = vec![Vec::new(); all.steps.len()];
+                let directions = [vec![0; rows.first()?.a.len()]];
+                let machine =
+                    Tolerances { steps: &none, second: None, directions: &directions, ..*all };
+                matrix(&test::Over { tolerances: Some(&machine), inside: None, ..*self.formulas })
+            }
+            _ => matrix(self.formulas),
+        };
+        let Some(all) = all else { return Some(f64::NEG_INFINITY) };
+        let n = rows.first()?.a.len();
+        let at = |i: usize, j: usize| all.row(i.min(j))[i.abs_diff(j)];
+        let own = DMatrix::from_fn(n, n, |i, j| middle(&at(i, j)));
+        let off = DMatrix::from_fn(n, n, |i, j| half_width(&at(i, j)));
+        let is_moderate = n > 0 && are_moderate(own.iter().chain(off.iter()));
+        is_moderate.then(|| least_of(&own, &off))
+    }
+}
+
+/// The least eigenvalue of all symmetric matrices that differ from this one by so much at most in each entry, or somewhat more.
+///
+/// Of these, the least along `v` is that with the signs of `v`, `T - S R S`: its direction is the next.
+fn least_of(own: &DMatrix<f64>, off: &DMatrix<f64>) -> f64 {
+    let (mut least, mut worst) = (f64::INFINITY, own.clone());
+    for _ in 0..MOST_SIGNS {
+        let eigen = SymmetricEigen::new(worst);
+        let k = eigen.eigenvalues.imin();
+        if eigen.eigenvalues[k] >= least {
+            break;
+        }
+        let v = eigen.eigenvectors.column(k);
+        let signed = |i: usize, j: usize| off[(i, j)] * (v[i] * v[j]).signum();
+        worst = own - DMatrix::from_fn(own.nrows(), own.ncols(), signed);
+        least = v.dot(&(&worst * v));
+    }
+    least
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of all signs the worst is found, and without any it is an eigenvalue.
+    #[test]
+    fn the_least_eigenvalue_of_a_box_of_matrices_is_that_of_the_worst_signs() {
+        let own = DMatrix::from_row_slice(3, 3, &[2.0, 0.1, -0.2, 0.1, 2.2, 0.3, -0.2, 0.3, 2.1]);
+        let off = DMatrix::from_row_slice(3, 3, &[0.1, 0.3, 0.2, 0.3, 0.2, 0.4, 0.2, 0.4, 0.1]);
+        let of_signs = |signs: usize| {
+            let sign = |i: usize| if signs >> i & 1 == 1 { -1.0 } else { 1.0 };
+            let worst =
+                DMatrix::from_fn(3, 3, |i, j| own[(i, j)] - off[(i, j)] * sign(i) * sign(j));
+            worst.symmetric_eigenvalues().min()
+        };
+        let least = (0..4).map(of_signs).fold(f64::INFINITY, f64::min);
+        assert!((least_of(&own, &off) - least).abs() < 1e-12, "{} {least}", least_of(&own, &off));
+        let alone = least_of(&own, &(&off * 0.0));
+        assert!((alone - own.symmetric_eigenvalues().min()).abs() < 1e-12, "{alone}");
     }
 }
