@@ -95,6 +95,8 @@ struct Row {
     counterexample: Option<Counterexample>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     certificates: Vec<CertificateFile>,
+    #[serde(skip)]
+    unwritten: Unwritten,
 }
 
 /// Runs it.
@@ -132,7 +134,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         });
         found.map_err(|error| explain(error, &design))
     };
-    let (mut rows, mut unwritten) = (Vec::new(), Unwritten::default());
+    let mut rows = Vec::new();
     let mut fill = || {
         let schemes = schemes(&kinds);
         let mut after = usize::from(mixed(&kinds)) + kinds.len() * legs;
@@ -142,7 +144,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
                 break;
             }
             let found = bracket(scheme, Bracket::default(), schemes.len() - at + after)?;
-            rows.push(row(scheme, *measure, &found, width, (arguments, &mut unwritten))?);
+            rows.push(row(scheme, *measure, &found, width, arguments)?);
             all.push(found);
         }
         // What time the others left is for those whose time was up, first for those of which least is known: half of what is left
@@ -159,7 +161,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
                 let (scheme, measure) = &schemes[at];
                 let found = bracket(scheme, all[at].clone(), 2 + after)?;
                 improved |= certified(&found) != certified(&all[at]);
-                rows[at] = row(scheme, *measure, &found, width, (arguments, &mut unwritten))?;
+                rows[at] = row(scheme, *measure, &found, width, arguments)?;
                 all[at] = found;
             }
         }
@@ -170,7 +172,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
             interrupt::unless_cancelled(())?;
             let scheme = Scheme { weights, leg: None };
             let found = bracket(&scheme, Bracket::default(), after)?;
-            rows.push(row(&scheme, Measure::Share, &found, width, (arguments, &mut unwritten))?);
+            rows.push(row(&scheme, Measure::Share, &found, width, arguments)?);
         }
         after -= usize::from(mixed(&kinds));
         for kind in kinds.iter().filter(|_| arguments.by_leg) {
@@ -181,7 +183,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
                 let found = bracket(&scheme, Bracket::default(), after)?;
                 after -= 1;
                 let measure = measure(kind.is_direction());
-                rows.push(row(&scheme, measure, &found, width, (arguments, &mut unwritten))?);
+                rows.push(row(&scheme, measure, &found, width, arguments)?);
             }
             // The leg that allows least first.
             let least = |row: &Row| {
@@ -213,7 +215,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     }
     let complete = rows.iter().all(|row| row.gap_reached);
     let status = if complete { Status::Done } else { Status::Undecided };
-    unwritten.told()?;
+    rows.into_iter().try_for_each(|row| row.unwritten.told())?;
     interrupt::unless_cancelled(status)
 }
 
@@ -347,7 +349,7 @@ fn row(
     measure: Measure,
     found: &Bracket,
     width: f64,
-    (arguments, unwritten): (&Arguments, &mut Unwritten),
+    arguments: &Arguments,
 ) -> Result<Row, Failure> {
     let names: Vec<&'static str> = scheme.weights.iter().map(|(kind, _)| kind.name()).collect();
     let stem = match (&names[..], measure) {
@@ -360,7 +362,7 @@ fn row(
         Some(leg) => format!("{stem}-{}", leg + 1),
         None => stem,
     };
-    let mut certificates = Vec::new();
+    let (mut certificates, mut unwritten) = (Vec::new(), Unwritten::default());
     if let Some(folder) = &arguments.output {
         for (end, side) in [(&found.certified, "certified"), (&found.refuted, "refuted")] {
             if let Some((_, certificate)) = end {
@@ -394,6 +396,7 @@ fn row(
         out_of_time: found.out_of_time,
         counterexample,
         certificates,
+        unwritten,
     })
 }
 

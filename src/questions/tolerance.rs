@@ -36,7 +36,8 @@ const SHARE: f64 = 0.25;
 /// steps from there on.
 const LAST: f64 = 0.1;
 const SHORT: f64 = 1.25;
-/// Parts of the refuted tolerance that are tried first where the best that can be hoped for is not proved, less one.
+/// Parts of the refuted tolerance that are tried first where there is a deadline, or the best that can be hoped for is not proved,
+/// less one.
 const FAR: (f64, f64) = (10.0, 1e6);
 
 /// A kind of parameter, which all legs that have it share.
@@ -304,11 +305,12 @@ pub fn widest(
         Proof::Witness(witness) => Some(&witness.point[..]),
         _ => None,
     });
-    // The best that can be hoped for, first.
+    // The best that can be hoped for, first; what is not proved may take all of the time there is, then from afar.
     let near = gap * (1.0 - SHARE);
+    let first = if budget.deadline.is_some() { FAR.0 } else { near };
     let end = refuted.as_ref().and_then(|(t, _)| t.to_f64());
     let to = end.unwrap_or(LAST * scale);
-    let to = Approach { first: near, far: FAR, ..Approach::from_afar(to, Succeeds::Below, near) };
+    let to = Approach { first, far: FAR, ..Approach::from_afar(to, Succeeds::Below, near) };
     let to = Approach { known: known.certified.as_ref().and_then(|(t, _)| to.distance(t)), ..to };
     let certified = control
         .part([0.6, 1.0], |control| certified(claim, scheme, (&to, point), budget, control))?;
