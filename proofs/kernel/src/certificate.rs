@@ -11,7 +11,7 @@ use std::fmt;
 /// Most nodes of a tree.
 pub const MOST_NODES: usize = 500_000;
 /// Most work of all steps, each counted once for every 64 bits of the precision, and as that of the
-/// integers it is in: a bound on time, whatever the file.
+/// integers it is in: a bound on time, whatever the file. That of a single machine, or of a cube, may be eight times as much.
 pub const MOST_WORK: usize = 1 << 28;
 /// The format that is read and written.
 pub const FORMAT: &str = "orthocert/2";

@@ -76,7 +76,7 @@ impl Stretched {
 
 impl Over<'_> {
     /// Evidence with tolerances apart, where there are some: from the worst machine, as it seems, then
-    /// from that in the middle.
+    /// from that in the middle, with the longest directions.
     pub(super) fn with_tolerances_apart(&self, test: &Test) -> Option<Evidence> {
         self.problem().derived.as_ref()?;
         let worst = self.there(test, |there| there.worst(test)).or_else(|| self.worst(test))?;

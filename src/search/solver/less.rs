@@ -239,8 +239,8 @@ impl Over<'_> {
             (Test::AtLeast(f), _) => Some(self.formulas.least_at(*f, v)?.0),
             (Test::Beyond(f, b), _) => {
                 let [f, b] = [self.formulas.own_at(*f, v)?, self.formulas.own_at(*b, v)?];
-                let negative = *evidence == Evidence::Negative;
-                Some(if negative { -f.1 } else { f.0 } - b.1)
+                let least = if *evidence == Evidence::Negative { -f.1 } else { f.0 };
+                Some(least - b.1)
             }
             (_, Evidence::Together(inner, all, places)) => {
                 let together = Some((&all[..], *places));
@@ -298,14 +298,14 @@ impl Over<'_> {
         let own = DMatrix::from_fn(n, n, |i, j| middle(&at(i, j)));
         let off = DMatrix::from_fn(n, n, |i, j| half_width(&at(i, j)));
         let is_moderate = n > 0 && are_moderate(own.iter().chain(off.iter()));
-        is_moderate.then(|| least_of(&own, &off))
+        is_moderate.then(|| least_eigenvalue(&own, &off))
     }
 }
 
 /// The least eigenvalue of all symmetric matrices that differ from this one by so much at most in each entry, or somewhat more.
 ///
 /// Of these, the least along `v` is that with the signs of `v`, `T - S R S`: its direction is the next.
-fn least_of(own: &DMatrix<f64>, off: &DMatrix<f64>) -> f64 {
+fn least_eigenvalue(own: &DMatrix<f64>, off: &DMatrix<f64>) -> f64 {
     let (mut least, mut worst) = (f64::INFINITY, own.clone());
     for _ in 0..MOST_SIGNS {
         let eigen = SymmetricEigen::new(worst);
@@ -337,8 +337,9 @@ mod tests {
             worst.symmetric_eigenvalues().min()
         };
         let least = (0..4).map(of_signs).fold(f64::INFINITY, f64::min);
-        assert!((least_of(&own, &off) - least).abs() < 1e-12, "{} {least}", least_of(&own, &off));
-        let alone = least_of(&own, &(&off * 0.0));
+        let found = least_eigenvalue(&own, &off);
+        assert!((found - least).abs() < 1e-12, "{found} {least}");
+        let alone = least_eigenvalue(&own, &(&off * 0.0));
         assert!((alone - own.symmetric_eigenvalues().min()).abs() < 1e-12, "{alone}");
     }
 }
