@@ -194,35 +194,39 @@ impl Over<'_> {
         let weight = self.problem().weight.filter(|_| form == Form::Scaled);
         let weight = weight.map_or(Some(1.0), |weight| self.at(weight, at))?;
         let own = self.prover.rows(form);
-        let lower =
-            |rows: &[Row<Formula>], square: f64, y| self.least_of_lower(rows, v, -square, y);
+        let lower = |rows: &[Row<Formula>], square: f64, y: (&Multiplier, bool)| {
+            self.least_of(rows, |formulas| formulas.lower(rows, v, &(-square, -square), y))
+        };
+        let upper = |rows: &[Row<Formula>], square: f64| {
+            self.least_of(rows, |formulas| formulas.upper(rows, v, &(square, square)))
+        };
         match (test, evidence) {
             (Test::SigmaMin(_), Evidence::Rank(y)) => lower(own, 0.0, (y, false)),
             (Test::SigmaMin(kappa), Evidence::Lower(y) | Evidence::LowerDivided(y)) => {
                 lower(own, self.centre(*kappa)? * weight, (y, true))
             }
             (Test::SigmaMax(k), Evidence::Test | Evidence::Divided) => {
-                self.least_of_upper(own, v, self.centre(*k)? * weight)
+                upper(own, self.centre(*k)? * weight)
             }
             (Test::Conditioning(c), Evidence::Conditioning(y, mu)) => {
-                let mu = self.mu_there((mu, y.places), weight, v)?;
-                let upper = self.least_of_upper(own, v, self.centre(*c)? * mu)?;
-                Some(lower(own, mu, (y, true))?.min(upper))
+                let first = *mu.first()? as f64 * (-f64::from(y.places)).exp2();
+                let mu = first * weight + self.mu_along((mu, y.places), v)?;
+                let least = upper(own, self.centre(*c)? * mu)?;
+                Some(lower(own, mu, (y, true))?.min(least))
             }
             (Test::Conditioning(c), Evidence::Lower(_) | Evidence::Test) => {
                 let half = self.formulas.half?;
-                let first = *half.mu.0.first()? as f64 * (-f64::from(half.mu.1)).exp2();
-                let mu = self.mu_at_centre(half)? + self.mu_there(half.mu, 1.0, v)? - first;
+                let mu = self.mu_at_centre(half)? + self.mu_along(half.mu, v)?;
                 match evidence {
                     Evidence::Lower(y) => lower(own, mu, (y, true)),
-                    _ => self.least_of_upper(own, v, self.centre(*c)? * mu),
+                    _ => upper(own, self.centre(*c)? * mu),
                 }
             }
             (Test::Least(rows, kappa), Evidence::Lower(y)) => {
                 lower(rows, self.formulas.greatest_at(*kappa, v)?.1, (y, true))
             }
             (Test::Greatest(rows, k), Evidence::Test) => {
-                self.least_of_upper(rows, v, self.formulas.least_at(*k, v)?.0)
+                upper(rows, self.formulas.least_at(*k, v)?.0)
             }
             (Test::OneToOne(rows), Evidence::Chords) => {
                 lower(rows, 0.0, (self.prover.chords.as_ref()?, false))
@@ -251,28 +255,13 @@ impl Over<'_> {
         }
     }
 
-    /// `mu_0, .., mu_m` over binary places, at a vertex or control point of this weight.
-    fn mu_there(&self, (mu, places): (&[i64], u32), weight: f64, v: Vertex) -> Option<f64> {
-        let signed = mu.iter().enumerate().map(|(k, &mu)| match k.checked_sub(1) {
-            None => Some(mu as f64 * weight),
-            Some(_) if mu == 0 => Some(0.0),
-            Some(k) => Some(self.formulas.place(k, v)? as f64 * mu as f64),
+    /// What `mu_1, .., mu_m`, of these with `mu_0` over binary places, are at a vertex or control point.
+    fn mu_along(&self, (mu, places): (&[i64], u32), v: Vertex) -> Option<f64> {
+        let signed = mu.iter().skip(1).enumerate().map(|(k, &mu)| match mu {
+            0 => Some(0.0),
+            mu => Some(self.formulas.place(k, v)? as f64 * mu as f64),
         });
         Some((-f64::from(places)).exp2() * signed.sum::<Option<f64>>()?)
-    }
-
-    fn least_of_lower(
-        &self,
-        rows: &[Row<Formula>],
-        v: Vertex,
-        rest: f64,
-        y: (&Multiplier, bool),
-    ) -> Option<f64> {
-        self.least_of(rows, |formulas| formulas.lower(rows, v, &(rest, rest), y))
-    }
-
-    fn least_of_upper(&self, rows: &[Row<Formula>], v: Vertex, k_squared: f64) -> Option<f64> {
-        self.least_of(rows, |formulas| formulas.upper(rows, v, &(k_squared, k_squared)))
     }
 
     /// What is least of a matrix, with nothing taken off where it is about the directions of a wedge, in whose coordinates that

@@ -55,15 +55,10 @@ impl Rows {
         m.transpose() * m
     }
 
-    /// `Y^T A + A^T Y`.
-    pub fn symmetric(&self, y: &DMatrix<f64>) -> DMatrix<f64> {
-        let t = y.transpose() * &self.a;
-        &t + t.transpose()
-    }
-
     /// `Y^T A + A^T Y - Y^T D Y`.
     pub fn minorant(&self, y: &DMatrix<f64>) -> DMatrix<f64> {
-        self.symmetric(y) - y.transpose() * DMatrix::from_diagonal(&self.d) * y
+        let t = y.transpose() * &self.a;
+        &t + t.transpose() - y.transpose() * DMatrix::from_diagonal(&self.d) * y
     }
 
     /// Matrices `Y` to begin with: `kappa B^-1 U`, `B^-1 M`, where the minorant touches `M^T M`, and
