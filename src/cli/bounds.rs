@@ -11,7 +11,7 @@ use crate::report::{exactly, placed, point_text, pose_text, CertificateFile};
 use crate::search::solver::enclose::{enclose, is_singular, loosest, Enclosed, NotEnclosed};
 use crate::search::solver::extremes::{of_cube, Extreme};
 use crate::search::solver::sector::{self, Sector};
-use crate::search::solver::value::{coordinates, in_length, listed, with_unit};
+use crate::search::solver::value::{coordinates, in_length, in_words, listed, with_unit};
 use crate::search::Budget;
 use num_rational::BigRational;
 use num_traits::Signed;
@@ -327,16 +327,6 @@ fn lines(rows: &[Row]) -> Vec<Line<'_>> {
         }
     }
     lines
-}
-
-/// A quantity as people call it.
-fn in_words(symbol: &str) -> &str {
-    match symbol {
-        "sigma_max/sigma_min" => "condition number",
-        "|eta_i|/L_i" => "serial margin",
-        "|det A|/(L_1 .. L_n)" => "parallel margin",
-        other => other,
-    }
 }
 
 /// The table, where each extreme is reached, and what its columns are.

@@ -305,7 +305,7 @@ fn components_text(components: &ComponentsReport) -> String {
             let least = least.unwrap_or_default();
             out += &format!(
                 "              has the {}, ({at}):\n              \
-                 sigma_max/sigma_min = {least}\n",
+                 condition number {least}\n",
                 components.what_is_there
             );
         }

@@ -2,6 +2,7 @@
 
 use crate::design::Design;
 use crate::report::shown;
+use crate::search::solver::value::name_of;
 use orthocert_kernel::claim as kernel;
 use orthocert_kernel::quantity::{Quantity, TABLE};
 use serde::Serialize;
@@ -148,8 +149,7 @@ fn demands(own: &kernel::Requirement) -> String {
     let name = match own.quantity.as_str() {
         "transmission" => "psi".to_owned(),
         "joint_range" => "rho".to_owned(),
-        "conditioning" => "condition number".to_owned(),
-        quantity => quantity.replace('_', " "),
+        quantity => name_of(quantity),
     };
     let leg = own.leg.map(|leg| format!("leg {leg}: ")).unwrap_or_default();
     match &own.bound {

@@ -9,7 +9,7 @@ use super::{
 use crate::exact::decimal::{self, boxes, counted, exact, grouped, significant, Toward};
 use crate::exact::Exact;
 use crate::files::shown::Shown;
-use crate::search::solver::value::{in_length, listed, with_unit, Coordinates};
+use crate::search::solver::value::{in_length, in_words, listed, with_unit, Coordinates};
 use num_rational::BigRational;
 use orthocert_checker::certificate::Verdict;
 use std::fmt::Write;
@@ -138,8 +138,8 @@ fn margins(margins: &[Margin], length: Option<&str>) -> String {
             place == (margin.relation, margin.unit, &margin.bound)
         };
         match told.iter_mut().find(same) {
-            Some((_, names)) => names.push(&margin.quantity),
-            None => told.push((margin, vec![&margin.quantity])),
+            Some((_, names)) => names.push(in_words(&margin.quantity)),
+            None => told.push((margin, vec![in_words(&margin.quantity)])),
         }
     }
     let text = |(margin, names): &(&Margin, Vec<&str>)| {

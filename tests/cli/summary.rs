@@ -51,6 +51,25 @@ fn two_sliders(length: &str, requirements: &str) -> String {
     )
 }
 
+/// One quantity has one name in every text; symbols are for scripts.
+#[test]
+fn a_quantity_has_one_name() {
+    for (design, name, symbol) in [
+        ("delta-conditioning.toml", "condition number", "sigma_max/sigma_min"),
+        ("delta-serial-margin.toml", "serial margin", "|eta_i|/L_i"),
+        ("delta-parallel-margin.toml", "parallel margin", "|det A|/(L_1 .. L_n)"),
+    ] {
+        let folder = Folder::with(&[design]);
+        for command in ["verify", "summary"] {
+            let answer = folder.run(&[command, design]).exits(0).says(&[name]);
+            assert!(!answer.stdout.contains(symbol), "{}", answer.stdout);
+        }
+        let answer = folder.run(&["verify", design, "--format", "json"]).exits(0);
+        let answer: Value = serde_json::from_str(&answer.stdout).unwrap();
+        assert_eq!(answer["margins"][0]["quantity"], symbol);
+    }
+}
+
 /// Where a platform turns, how far and by which angle it is off are two things.
 #[test]
 fn an_accuracy_has_two_bounds() {

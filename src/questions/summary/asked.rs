@@ -5,7 +5,7 @@ use super::Value;
 use crate::exact::Exact;
 use crate::report::shown;
 use crate::search::solver::extremes::{of_cube, Extreme};
-use crate::search::solver::value::unit;
+use crate::search::solver::value::{name_of, unit};
 use num_rational::BigRational;
 use orthocert_kernel::claim::{Bound, MachineClaim, Mechanism, Requirement, Workspace};
 use orthocert_kernel::machine::{Joint, Leg};
@@ -122,7 +122,7 @@ pub fn asked(
 /// Why a quantity is left out.
 fn why_not(claim: &MachineClaim, problem: &Problem, quantity: &str) -> String {
     let (joints, coordinates) = (problem.legs.len(), problem.dimension());
-    let words = quantity.replace('_', " ");
+    let words = name_of(quantity);
     let turns = claim.orientation.is_some();
     let why = match quantity {
         "joint_speed" if turns => {
@@ -219,9 +219,6 @@ fn words(
             format!("off by, joint errors up to {} deg", number("joint_error"))
         }
         "accuracy" => format!("off by, joint errors up to {}", number("joint_error")),
-        "conditioning" => "condition number of M".to_owned(),
-        "serial_margin" => format!("|eta_i|/L_i{leg}"),
-        "parallel_margin" => "|det A|/(L_1 .. L_n)".to_owned(),
-        other => format!("{}{leg}", other.replace('_', " ")),
+        other => format!("{}{leg}", name_of(other)),
     }
 }

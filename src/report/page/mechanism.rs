@@ -4,6 +4,7 @@ use crate::exact::decimal::begun;
 use crate::report::escape::xml;
 use crate::report::exactly;
 use crate::report::kernel::parameter;
+use crate::search::solver::value::name_of;
 use orthocert_kernel::claim::{
     Bound, Leg, MachineClaim, Mechanism, Orientation, Quantity, Requirement, Workspace,
 };
@@ -153,7 +154,13 @@ pub fn workspace(claim: &MachineClaim) -> String {
 pub fn quantity(requirement: &Requirement) -> String {
     let known = TABLE.iter().find(|known| known.key == requirement.quantity);
     let mut out = match known {
-        Some(known) => format!("{}: {}", known.words, known.symbol),
+        Some(known) => {
+            let words = match known.key {
+                margin @ ("serial_margin" | "parallel_margin") => name_of(margin),
+                _ => known.words.to_owned(),
+            };
+            format!("{words}: {}", known.symbol)
+        }
         None => requirement.quantity.clone(),
     };
     if let Some(leg) = requirement.leg {
@@ -171,7 +178,7 @@ pub fn short(requirement: &Requirement) -> String {
     if words.chars().count() <= SHORT {
         return words;
     }
-    let mut out = requirement.quantity.replace('_', " ");
+    let mut out = name_of(&requirement.quantity);
     for (name, given) in &requirement.given {
         let _ = write!(out, ", {} = {}", name.replace('_', " "), numbers(given));
     }
@@ -232,7 +239,7 @@ pub fn greek(formula: &str, index: &str) -> String {
 /// A requirement over a picture: its name, and its formula where that has a letter for it.
 pub fn heading(requirement: &Requirement) -> String {
     let known = TABLE.iter().find(|known| known.key == requirement.quantity);
-    let name = requirement.quantity.replace('_', " ");
+    let name = name_of(&requirement.quantity);
     let formula = formula(requirement);
     match known {
         Some(known) if is_letter(known.symbol) => typeset(&format!("{name}: {formula}")),

@@ -158,7 +158,7 @@ impl Extreme {
         Some(alone(claim, require))
     }
 
-    /// The quantity's name in tables.
+    /// The quantity's name for scripts; for people [`in_words`](super::value::in_words).
     pub fn quantity(&self) -> String {
         let Requirement { quantity, .. } = &self.bounded.requirement;
         match (quantity.as_str(), self.bounded.leg) {

@@ -56,6 +56,24 @@ pub fn depends_on_length(quantity: &str, angular: bool) -> bool {
     }
 }
 
+/// The name in texts of the quantity with this key.
+pub fn name_of(quantity: &str) -> String {
+    match quantity {
+        "conditioning" => "condition number".to_owned(),
+        other => other.replace('_', " "),
+    }
+}
+
+/// The name in texts of what [`Extreme::quantity`](super::extremes::Extreme::quantity) gives a symbol.
+pub fn in_words(symbol: &str) -> &str {
+    match symbol {
+        "sigma_max/sigma_min" => "condition number",
+        "|eta_i|/L_i" => "serial margin",
+        "|det A|/(L_1 .. L_n)" => "parallel margin",
+        other => other,
+    }
+}
+
 /// A quantity's name with its unit in a table, where the unit has an angle in it.
 pub fn with_unit(name: &str, unit: Option<&str>) -> String {
     match unit.filter(|unit| has_angle(unit)) {
@@ -161,9 +179,8 @@ impl Bounded {
             ("transmission", _) => format!("{end}psi"),
             ("joint_range", Some(leg)) => format!("{end}rho_{leg}"),
             ("joint_range", None) => format!("{end}rho"),
-            ("conditioning", _) => "condition number".to_owned(),
-            (_, Some(leg)) => format!("{} {leg}", quantity.replace('_', " ")),
-            (_, None) => quantity.replace('_', " "),
+            (quantity, Some(leg)) => format!("{} {leg}", name_of(quantity)),
+            (quantity, None) => name_of(quantity),
         }
     }
 

@@ -178,7 +178,7 @@ impl PavingPage<'_> {
                     .map(|x| significant(*x, 3));
                 let at = at.collect::<Vec<_>>().join(", ");
                 format!(
-                    "the {}, \u{3c3}<sub>max</sub>/\u{3c3}<sub>min</sub> = {} at ({at})",
+                    "the {}, condition number {} at ({at})",
                     found.what_is_there(),
                     significant(found.conditioning, 4)
                 )
