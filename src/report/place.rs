@@ -37,28 +37,40 @@ pub fn placed(place: &str) -> String {
 
 /// The names of the coordinates that are lengths, or a user's own.
 pub fn positions(coordinates: &[String]) -> impl Iterator<Item = &str> {
-    let is_turn = |name: &&str| name.starts_with("tan(") || name.starts_with("c_");
+    let is_turn = |name: &&str| angle_of(name).is_some() || is_of_axis(name);
     coordinates.iter().map(String::as_str).filter(move |name| !is_turn(name))
+}
+
+/// The angle whose half-angle tangent a coordinate is.
+pub fn angle_of(name: &str) -> Option<&str> {
+    name.strip_prefix("tan(")?.strip_suffix("/2)")
+}
+
+/// Whether a coordinate is a component of `tan(theta/2)` along the axis of a rotation by `theta`.
+pub fn is_of_axis(name: &str) -> bool {
+    name.starts_with("c_")
+}
+
+/// The angle with this half-angle tangent.
+pub fn in_degrees(half_angle_tangent: f64) -> f64 {
+    2.0 * half_angle_tangent.atan().to_degrees()
 }
 
 /// How a pose is turned, in degrees; none where no coordinate says so.
 pub fn turn_text(point: &[f64], coordinates: &Coordinates, digits: u32) -> Option<String> {
     let number = |x: f64| significant(x, digits);
-    let of = |start: &'static str| {
-        coordinates.iter().zip(point).filter(move |(name, _)| name.starts_with(start))
-    };
-    let angles = of("tan(").map(|(name, x)| {
-        let angle = name.trim_start_matches("tan(").trim_end_matches("/2)");
-        format!("{angle} = {} deg", number(2.0 * x.atan().to_degrees()))
+    let angles = coordinates.iter().zip(point).filter_map(|(name, x)| {
+        Some(format!("{} = {} deg", angle_of(name)?, number(in_degrees(*x))))
     });
     let mut parts: Vec<String> = angles.collect();
-    let axis: Vec<f64> = of("c_").map(|(_, x)| *x).collect();
+    let axes = coordinates.iter().zip(point).filter(|(name, _)| is_of_axis(name));
+    let axis: Vec<f64> = axes.map(|(_, x)| *x).collect();
     let length = axis.iter().map(|x| x * x).sum::<f64>().sqrt();
     if let ([x, y, z], true) = (&axis[..], coordinates.by_tilt) {
         parts.push(tilt_text([*x, *y, *z], digits));
     } else if length > 0.0 {
         let unit: Vec<f64> = axis.iter().map(|x| x / length).collect();
-        let angle = number(2.0 * length.atan().to_degrees());
+        let angle = number(in_degrees(length));
         parts.push(format!("turned by {angle} deg about {}", point_text(&unit, AXIS_DIGITS)));
     } else if !axis.is_empty() {
         parts.push("not turned".to_owned());

@@ -1,7 +1,10 @@
 //! Reports for people: the verdict first, then the table, within 80 columns.
 
 use super::kernel::{DETERMINANT, RADICAND};
-use super::place::{placed, point_text, pose_text, positions, turn_text, FreeParameter};
+use super::place::{
+    angle_of, in_degrees, is_of_axis, placed, point_text, pose_text, positions, turn_text,
+    FreeParameter,
+};
 use super::{
     machine_of_witness, CertificateFile, Counterexample, EarlierFile, Margin, Outcome,
     PostulateReport, Remains, Report, Row, Size,
@@ -20,6 +23,8 @@ pub const WIDTH: usize = 80;
 const VALUE_DIGITS: u32 = 9;
 /// Significant digits of places.
 const PLACE_DIGITS: u32 = 6;
+/// Significant digits of how the middle of a box is turned.
+const AXIS_DIGITS: u32 = 4;
 /// Longest exact coordinate that stands on a line with others.
 const SHORT_COORDINATE: usize = 20;
 
@@ -389,6 +394,10 @@ fn describe_remains(out: &mut String, remains: &Remains, coordinates: &Coordinat
         wrap(out, &text, 4);
         extent(out, &region.min, &region.max, coordinates);
     }
+    if coordinates.iter().any(|name| is_of_axis(name)) {
+        let text = "c_x, c_y, c_z: of a turn by theta, tan(theta/2) times its axis";
+        wrap(out, text, 4);
+    }
     let hidden = remains.region_count - remains.regions.len().min(told);
     if hidden > 0 {
         let how = if verbose { "" } else { ": --verbose" };
@@ -406,13 +415,24 @@ fn describe_remains(out: &mut String, remains: &Remains, coordinates: &Coordinat
     }
 }
 
-/// The ends of a box, in as many digits as tell them apart.
+/// The ends of a box, in as many digits as tell them apart: angles in degrees, and where each coordinate is of the
+/// axis of a rotation, also how its middle is turned.
 fn extent(out: &mut String, min: &[f64], max: &[f64], coordinates: &Coordinates) {
     for (k, axis) in coordinates.iter().enumerate() {
-        let ends = |digits| (significant(min[k], digits), significant(max[k], digits));
+        let (name, [min, max]) = match angle_of(axis) {
+            Some(angle) => (format!("{angle}, deg"), [min[k], max[k]].map(in_degrees)),
+            None => (axis.clone(), [min[k], max[k]]),
+        };
+        let ends = |digits| (significant(min, digits), significant(max, digits));
         let apart = (PLACE_DIGITS..=17).map(ends).find(|(min, max)| min != max);
         let (min, max) = apart.unwrap_or_else(|| ends(PLACE_DIGITS));
-        let _ = writeln!(out, "      {axis}  {min} .. {max}");
+        let _ = writeln!(out, "      {name}  {min} .. {max}");
+    }
+    if coordinates.iter().any(|name| is_of_axis(name)) {
+        let middle: Vec<f64> = min.iter().zip(max).map(|(min, max)| (min + max) / 2.0).collect();
+        if let Some(turn) = turn_text(&middle, coordinates, AXIS_DIGITS) {
+            let _ = writeln!(out, "      its middle: {turn}");
+        }
     }
 }
 

@@ -98,6 +98,22 @@ fn a_certificate_is_checked_against_its_design() {
     }
 }
 
+/// Where boxes remain open, orientations are told in degrees, or explained.
+#[test]
+fn open_boxes_tell_how_they_are_turned() {
+    let folder = Folder::new();
+    for (design, says) in [
+        ("planar-3-rrr.toml", &["phi, deg -15 .. 15"][..]),
+        ("hexapod-ssm.toml", &["its middle: not turned", "c_x, c_y, c_z: of a turn by theta"]),
+        ("spherical-3-ups.toml", &["its middle: tilt 0 deg, torsion 0 deg"]),
+    ] {
+        let from = format!("{}/tests/designs/kernel/{design}", env!("CARGO_MANIFEST_DIR"));
+        folder.write(design, std::fs::read(from).unwrap());
+        let run = folder.run(&["verify", design, "--max-boxes", "3"]).exits(3).says(says);
+        assert!(!run.stdout.contains("tan(phi/2)"), "{}", run.stdout);
+    }
+}
+
 #[test]
 fn formulas_are_printed_on_request() {
     let folder = Folder::with(&["orthoglide-310.toml"]);
