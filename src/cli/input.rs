@@ -126,9 +126,12 @@ pub fn apart_in(folder: &Path, design: &Path) -> Result<(), Failure> {
 }
 
 /// What to do with a file that is no certificate, but named as designs are.
-pub fn design_hint(path: &Path) -> &'static str {
+pub fn design_hint(path: &Path) -> String {
     match path.extension().is_some_and(|extension| extension == "toml") {
-        true => "; `orthocert verify` reads designs",
-        false => "",
+        true => format!(
+            "; this is a design: `orthocert verify {}` proves or refutes it, and writes a certificate",
+            path.shown()
+        ),
+        false => String::new(),
     }
 }

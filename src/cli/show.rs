@@ -90,7 +90,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         Err(reason) => {
             let path = arguments.certificate.shown();
             let hint = match is_paving(&bytes) {
-                true => "; it is a paving, which `orthocert check` and `report` read",
+                true => "; it is a paving, which `orthocert check` and `report` read".to_owned(),
                 false => input::design_hint(&arguments.certificate),
             };
             print::diagnostic(&format!("{path}: REJECTED: {reason}{hint}"));

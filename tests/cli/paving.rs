@@ -604,7 +604,10 @@ fn files_given_to_the_wrong_command_name_the_right_one() {
     let folder = Folder::new();
     folder.write("d.toml", DESIGN);
     for command in ["check", "show", "report"] {
-        folder.run(&[command, "d.toml"]).exits(5).complains(&["`orthocert verify` reads designs"]);
+        folder
+            .run(&[command, "d.toml"])
+            .exits(5)
+            .complains(&["this is a design: `orthocert verify d.toml`"]);
     }
 }
 
