@@ -16,10 +16,12 @@ use orthocert_kernel::paving::{self, Header, Summary};
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::prover::check_sample;
 use serde::Serialize;
-use serde_json::Value;
+use serde_json::{Map, Value};
 use std::io::BufReader;
 use std::path::PathBuf;
 
+/// Longest text of a value in a message.
+const LONGEST: usize = 60;
 /// Most boxes of a sample, which are kept in memory.
 const MAX_SAMPLE: u64 = 1_000_000;
 
@@ -356,14 +358,19 @@ fn difference(one: &Value, other: &Value, key: &str) -> Option<(String, String, 
         (Value::Object(a), Value::Object(b))
             if a.len() == 1 && b.len() == 1 && !a.keys().eq(b.keys()) =>
         {
-            Some((key.to_owned(), shown(one), shown(other)))
+            let is_short = [one, other].iter().all(|x| x.to_string().chars().count() <= LONGEST);
+            let named = |map: &Map<String, Value>| map.keys().cloned().collect::<String>();
+            match is_short {
+                true => Some((key.to_owned(), shown(one), shown(other))),
+                false => Some((key.to_owned(), named(a), named(b))),
+            }
         }
         (Value::Object(a), Value::Object(b)) => {
+            // What a requirement is of comes before its numbers.
+            let first = a.get_key_value("quantity").map(|(key, _)| key);
             let keys = a.keys().chain(b.keys().filter(|k| !a.contains_key(*k)));
-            keys.into_iter().find_map(|k| {
-                let of = |map: &serde_json::Map<String, Value>| {
-                    map.get(k).cloned().unwrap_or(Value::Null)
-                };
+            first.into_iter().chain(keys).find_map(|k| {
+                let of = |map: &Map<String, Value>| map.get(k).cloned().unwrap_or(Value::Null);
                 difference(&of(a), &of(b), &format!("{key}.{k}"))
             })
         }
@@ -378,7 +385,6 @@ fn difference(one: &Value, other: &Value, key: &str) -> Option<(String, String, 
 }
 
 fn shown(value: &Value) -> String {
-    const LONGEST: usize = 60;
     let text = match value {
         Value::Null => return "absent".to_owned(),
         Value::String(text) => text.clone(),

@@ -96,6 +96,14 @@ fn a_certificate_is_checked_against_its_design() {
         let run = folder.run(&["check", "machine.json", "--design", "other.toml"]).exits(5);
         run.complains(&["another claim", parts]);
     }
+    let planar = folder.run(&["init", "--kind", "planar"]).exits(0).stdout;
+    folder.write("planar.toml", planar);
+    let run = folder.run(&["check", "machine.json", "--design", "planar.toml"]).exits(5);
+    run.complains(&["mechanism is formulas in the certificate and planar in the design\n"]);
+    let other = DESIGN.replacen("joint_range = { max = 1 }", "conditioning = { max = 3 }", 1);
+    folder.write("other.toml", other);
+    let run = folder.run(&["check", "machine.json", "--design", "other.toml"]).exits(5);
+    run.complains(&["require.0.quantity is joint_range in the certificate and conditioning in"]);
 }
 
 /// Where boxes remain open, orientations are told in degrees, or explained.
