@@ -8,7 +8,6 @@ use crate::report::{text, PostulateReport};
 use clap::ArgGroup;
 use orthocert_kernel::certificate::Claim;
 use orthocert_kernel::claim::{Every, PostulateClaim, PsiMax, Quantity};
-use orthocert_kernel::input::ClaimError;
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::postulate::parts;
 use std::path::PathBuf;
@@ -40,7 +39,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let Arguments { effort, output: target, .. } = arguments;
     let budget = effort.budget(started)?;
     let claim = PostulateClaim { psi_max: arguments.psi_max()? };
-    parts(&claim).map_err(|error| arguments.refused(&error))?;
+    parts(&claim).map_err(|_| arguments.refused())?;
     target.as_deref().map_or(Ok(()), output::probe)?;
     effort.start_threads()?;
     let mut found = effort.run(|control| prove(&claim, budget, control)).map_err(Failure::input)?;
@@ -73,7 +72,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
 }
 
 impl Arguments {
-    fn refused(&self, error: &ClaimError) -> Failure {
+    fn refused(&self) -> Failure {
         let (flag, text, accepted) = match (&self.psi, &self.psi_range) {
             (Some(psi), _) => ("--psi", psi.as_str(), "a number greater than 1"),
             (None, range) => {
@@ -82,12 +81,7 @@ impl Arguments {
             }
         };
         let text: String = text.chars().take(60).collect();
-        // What the kernel says of a range says nothing of one number.
-        let why = match self.psi {
-            Some(_) => String::new(),
-            None => format!(": {error}"),
-        };
-        Failure::Input(format!("{flag}: found \"{text}\"{why}; accepted: {accepted}"))
+        Failure::Input(format!("{flag}: found \"{text}\"; accepted: {accepted}"))
     }
 
     fn psi_max(&self) -> Result<PsiMax, Failure> {

@@ -124,7 +124,7 @@ fn orthoglide_of_cube(table: &Table<'_>) -> Result<Mechanism, DesignError> {
         if let Some(value) = table.find(key) {
             let found = format!("{}, next to workspace.cube", value.found());
             let accepted = format!(
-                "no {key} here: with workspace.cube it follows from transmission.max (psi_max)"
+                "no {key} here: with workspace.cube it follows from requirements.transmission.max"
             );
             return Err(value.error(Defect::Conflict, found, accepted));
         }

@@ -128,7 +128,12 @@ pub(super) fn positive(value: &Value<'_>, number: &Exact, what: &str) -> Result<
         Some(_) => value.found(),
         None => format!("{}, which is not provably positive", value.found()),
     };
-    Err(value.error(Defect::OutOfDomain, found, format!("{what} greater than 0")))
+    let is_range = match value.inner {
+        DeValue::String(text) => parts_of_tolerance(text).is_some(),
+        other => matches!(other, DeValue::Table(_)),
+    };
+    let whole = if is_range { ", over its whole tolerance" } else { "" };
+    Err(value.error(Defect::OutOfDomain, found, format!("{what} greater than 0{whole}")))
 }
 
 /// Demands that an angle in degrees is between 0 and 180.

@@ -58,7 +58,7 @@ pub(super) fn is_key(key: &str) -> bool {
 
 const BOUNDS: &str = r#"{ min = "1/2", max = 2 }, or one of min and max"#;
 const CUBE_BOUND: &str =
-    "transmission = { max = psi_max }, greater than 1: workspace.cube needs it";
+    "transmission = { max = 2 }, or another number greater than 1: workspace.cube needs it";
 const ANGLES: &str =
     "{ min = -45, max = 90 } in degrees, both ends, within ±360 and less than 180 apart";
 const LENGTHS: &str = "{ min = 0, max = 257 }";
@@ -152,8 +152,8 @@ fn transmission(
     }
     if let (Some(min), Some(max), Some(greatest)) = (&range.min, &range.max, &greatest) {
         if greatest.document.demands() && min.compare(max) != Some(Ordering::Less) {
-            let found = format!("{}, not (provably) above psi_min", greatest.found());
-            let accepted = "psi_max greater than psi_min";
+            let found = format!("{}, not (provably) above min", greatest.found());
+            let accepted = "max greater than min";
             return Err(greatest.error(Defect::Reversed, found, accepted));
         }
     }
@@ -170,7 +170,7 @@ fn ends(key: &'static str, leg: Option<usize>, range: Range) -> Vec<Demand> {
 fn psi_max_alone(table: &Table<'_>, range: &Range) -> Result<(), DesignError> {
     if let Some(least) = table.find("min") {
         let found = format!("{}, next to workspace.cube", least.found());
-        let accepted = "max alone: with workspace.cube, psi_min = 1/psi_max by definition";
+        let accepted = "max alone: with workspace.cube, min is 1/max by definition";
         return Err(least.error(Defect::Conflict, found, accepted));
     }
     let greatest = table.require("max", CUBE_BOUND)?;
