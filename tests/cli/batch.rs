@@ -55,7 +55,10 @@ fn every_design_is_told_of_and_the_worst_exit_code_wins() {
     ]) {
         assert!(line.starts_with(verdict) && line.contains(name), "{line}");
         assert!(run.stderr.lines().any(|l| l.starts_with(verdict) && l.contains(name)));
+        // What is wrong names the place in the file, and not the file again.
+        assert_eq!(line.matches(name).count(), 1, "{line}");
     }
+    assert!(lines[1].contains("  line "), "{}", lines[1]);
     assert!(lines.last().unwrap().starts_with("4 designs: 1 certified, 1 undecided, 1 refuted, 1"));
     assert_eq!(below(&folder, "proofs"), ["b.cert.json", "sub/a.cert.json"]);
     folder.run(&["check", "proofs/sub/a.cert.json", "--design", "designs/sub/a.toml"]).exits(0);

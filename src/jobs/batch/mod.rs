@@ -169,6 +169,17 @@ impl Entry {
         let first = self.message.as_deref().unwrap_or_default().lines().next();
         Shown(first.unwrap_or_default()).to_string()
     }
+
+    /// The same beside the design's name, with which messages about a file begin: `line 11:14: ..`.
+    pub fn remark_beside_name(&self) -> String {
+        let remark = self.remark();
+        let name = format!("{}:", Shown(&self.design));
+        match remark.strip_prefix(&name).map(str::trim_start) {
+            Some(rest) if rest.starts_with(|c: char| c.is_ascii_digit()) => format!("line {rest}"),
+            Some(rest) => rest.to_owned(),
+            None => remark,
+        }
+    }
 }
 
 /// What became of many designs, in the order of the plan.

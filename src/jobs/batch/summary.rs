@@ -16,7 +16,7 @@ const DESIGN: usize = 48;
 
 /// The line of a design as it ends.
 pub fn line(entry: &Entry, style: Style) -> String {
-    let remark = match entry.remark() {
+    let remark = match entry.remark_beside_name() {
         text if text.is_empty() => String::new(),
         text => format!(": {text}"),
     };
@@ -34,7 +34,7 @@ pub fn table(batch: &Batch, style: Style) -> String {
     let longest = names.iter().map(|name| name.chars().count()).max().unwrap_or(0).min(DESIGN);
     for (entry, name) in batch.designs.iter().zip(&names) {
         let _ = write!(out, "{}  {name:longest$}  ", verdict(entry.verdict, style));
-        let remark = match entry.remark() {
+        let remark = match entry.remark_beside_name() {
             text if !entry.cached || entry.counterexample.is_some() => text,
             text if text.is_empty() => "re-checked".to_owned(),
             text => format!("re-checked; {text}"),
@@ -75,7 +75,7 @@ pub fn markdown(batch: &Batch) -> String {
             escape::markdown(&entry.design),
             marked(entry.verdict),
             escape::markdown(entry.title.as_deref().unwrap_or_default()),
-            escape::markdown(&entry.remark()),
+            escape::markdown(&entry.remark_beside_name()),
             duration(entry.seconds)
         );
     }
