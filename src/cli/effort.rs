@@ -15,6 +15,9 @@ const MAX_BOXES: u64 = 500_000;
 /// Most threads that may be asked for.
 pub const MAX_THREADS: u64 = 1024;
 
+/// Threads for each core, beyond which more are not started.
+const MOST_OF_A_CORE: usize = 16;
+
 /// The flags.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Effort {
@@ -25,7 +28,7 @@ pub struct Effort {
     /// Time after which the search gives up: seconds, or a number with ms, s, min or h
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     timeout: Option<String>,
-    /// Threads of the search [default: one for each core]; the certificate does not depend on it
+    /// Threads of the search [default: one for each core; at most 16 for each]; the certificate does not depend on it
     #[arg(long, value_name = "N", value_parser = input::whole(1..=MAX_THREADS), allow_hyphen_values = true)]
     threads: Option<u64>,
     /// The form of the answer
@@ -73,7 +76,7 @@ impl Effort {
 /// The flags of commands whose files say how much work is to be done.
 #[derive(Debug, clap::Args)]
 pub struct Work {
-    /// Threads [default: one for each core]; what is written does not depend on it
+    /// Threads [default: one for each core; at most 16 for each]; what is written does not depend on it
     #[arg(long, value_name = "N", value_parser = input::whole(1..=MAX_THREADS), allow_hyphen_values = true)]
     threads: Option<u64>,
     /// The form of the answer
@@ -100,12 +103,14 @@ pub fn boxes_of(claim: &MachineClaim, boxes: u64) -> u64 {
     }
 }
 
-/// Starts so many threads, if a number is given.
+/// Starts so many threads, if a number is given; beyond [`MOST_OF_A_CORE`] they would mostly wait for each other.
 pub fn start_threads(threads: Option<u64>) -> Result<(), Failure> {
     let Some(threads) = threads else {
         return Ok(());
     };
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::try_from(threads).unwrap_or(1));
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let threads = usize::try_from(threads).unwrap_or(1).min(cores.saturating_mul(MOST_OF_A_CORE));
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
     pool.build_global()
         .map_err(|error| Failure::Output(format!("{threads} threads cannot be started: {error}")))
 }
