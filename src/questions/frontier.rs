@@ -293,7 +293,8 @@ pub fn approach<T>(
             Some(found) => (best, success) = (Some((value, found)), Some(distance)),
             None => {
                 failure = Some(distance);
-                out_of_time |= own.is_over();
+                // What is nearer fails too, whatever the time.
+                out_of_time = own.is_over();
             }
         }
     }
@@ -408,6 +409,7 @@ mod tests {
     use super::*;
     use crate::search::Progress;
     use std::sync::atomic::AtomicBool;
+    use std::time::{Duration, Instant};
 
     const WALK: Walk = Walk {
         start: 1.0,
@@ -493,6 +495,27 @@ mod tests {
         let Approached { found, out_of_time } = found.unwrap();
         assert_eq!(out_of_time, budget.is_over());
         found.map(|(_, x)| (to.to / x).max(x / to.to) - 1.0)
+    }
+
+    /// Of the three distances that fail, ever farther ones, the last decides whether time was what lacked.
+    #[test]
+    fn only_the_farthest_failure_may_be_for_want_of_time() {
+        let to = Approach::from_afar(200.0, Succeeds::Below, 3e-7);
+        let cancel = AtomicBool::new(false);
+        for (late, out_of_time) in [(1, false), (2, false), (3, true)] {
+            let control = &mut Control { cancel: &cancel, progress: &mut |_| {} };
+            let deadline = Instant::now().checked_add(Duration::from_secs(2));
+            let mut failures = 0;
+            let found = approach(&to, Budget { deadline, ..ENDLESS }, control, |x, own, _| {
+                let succeeds = 200.0 / x.to_f64().unwrap() - 1.0 >= 0.02;
+                failures += usize::from(!succeeds);
+                while !succeeds && failures == late && !own.is_over() {
+                    std::thread::sleep(Duration::from_millis(10));
+                }
+                Ok(succeeds.then_some(()))
+            });
+            assert_eq!((found.unwrap().out_of_time, failures), (out_of_time, 3));
+        }
     }
 
     #[test]
