@@ -21,8 +21,8 @@ const MOST_OF_A_CORE: usize = 16;
 /// The flags.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Effort {
-    /// Boxes after which a search gives up [default: 500000; in bounds, limit, size, summary and
-    /// tolerance, which search many times, less]; more than 500,000 count as 500,000, the most nodes of a certificate
+    /// Boxes after which a search gives up [default: 500000; in bounds, largest-cube, limit, size,
+    /// summary and tolerance, which search many times, less]; more than 500,000 count as 500,000, the most nodes of a certificate
     #[arg(long, value_name = "N", value_parser = input::whole(1..=u64::MAX), allow_hyphen_values = true)]
     max_boxes: Option<u64>,
     /// Time after which the search gives up: seconds, or a number with ms, s, min or h
