@@ -9,11 +9,12 @@
 use crate::exact::arithmetic::apply;
 use crate::exact::Exact;
 use crate::questions::frontier::{
-    approach, frontier, refutation, unless_cancelled, Approach, Approached, Bracket, NoAnswer,
-    Succeeds, Walk, LARGEST_FACTOR,
+    approach, frontier, unless_cancelled, Approach, Approached, Bracket, NoAnswer, Succeeds, Walk,
+    LARGEST_FACTOR,
 };
 use crate::report::exactly;
 use crate::search::solver::enclose::of_one_width;
+use crate::search::solver::sample::Worst;
 use crate::search::solver::{self, number};
 use crate::search::{Budget, Control, Stop};
 use num_rational::BigRational;
@@ -36,6 +37,8 @@ const SHARE: f64 = 0.25;
 /// steps from there on.
 const LAST: f64 = 0.1;
 const SHORT: f64 = 1.25;
+/// How often the worst places are looked for anew, of narrower and narrower tolerances.
+const ROUNDS: usize = 4;
 /// Parts of the refuted tolerance that are tried first where there is a deadline, or the best that can be hoped for is not proved,
 /// less one.
 const FAR: (f64, f64) = (10.0, 1e6);
@@ -278,12 +281,8 @@ pub fn widest(
             now + end.saturating_duration_since(now) / 3
         }),
     };
-    let refute = |walk: &Walk, control: &mut Control<'_>| {
-        frontier(walk, control, |t, control| match scheme.claim(claim, t) {
-            Some(claim) => refutation(&claim, control),
-            None => Ok(None),
-        })
-    };
+    let refute =
+        |walk: &Walk, control: &mut Control<'_>| refuted(walk, |t| scheme.claim(claim, t), control);
     let begun = match known.refuted {
         None => control.part([0.0, 0.4], |control| refute(&walk, control))?,
         Some(known) => {
@@ -316,6 +315,36 @@ pub fn widest(
         .part([0.6, 1.0], |control| certified(claim, scheme, (&to, point), budget, control))?;
     let out_of_time = certified.out_of_time || budget.is_over() || control.is_cancelled();
     Ok(Bracket { certified: certified.found.or(known.certified), refuted, out_of_time })
+}
+
+/// The narrowest tolerance found for which the claim is refuted: from where it is worst of the first that is, and, as others
+/// may be worse of narrower ones, from there too.
+fn refuted(
+    walk: &Walk,
+    claim: impl Fn(&BigRational) -> Option<MachineClaim>,
+    control: &mut Control<'_>,
+) -> Result<Option<(BigRational, Box<Certificate>)>, NoAnswer> {
+    let (mut walk, mut found) = (*walk, None);
+    for _ in 0..ROUNDS {
+        let mut known: Option<Vec<Worst>> = None;
+        let next = frontier(&walk, control, |t, control| {
+            unless_cancelled(control, ())?;
+            let Some(claim) = claim(t) else { return Ok(None) };
+            Ok(match &known {
+                Some(worst) => solver::refutation_from(&claim, worst).and_then(|(found, _)| found),
+                None => solver::refutation_and_worst(&claim).and_then(|(found, worst)| {
+                    known = found.is_some().then_some(worst);
+                    found
+                }),
+            })
+        })?;
+        let Some(least) = next.as_ref().and_then(|(t, _)| t.to_f64()) else { break };
+        found = next;
+        let factor = 1.0 + walk.gap;
+        walk =
+            Walk { start: least / factor, limits: (walk.limits.0, least / factor), factor, ..walk };
+    }
+    Ok(found)
 }
 
 /// The widest `t` found for which the claim widened by `scheme` is certified; `point` is where it is nearest to failing.

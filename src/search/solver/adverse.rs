@@ -80,9 +80,26 @@ impl Sampler<'_> {
         starts.extend(others.map(|place| self.worst_at(quality, place)));
         let found = starts.into_iter().map(|start| self.alternate(start, finest));
         let best = found.min_by(|a, b| a.margin.total_cmp(&b.margin))?;
-        // Where the worst is not at the ends after all.
-        let inner = self.descend(quality, &best.place, finest);
-        Some(if inner.margin < best.margin { inner } else { best })
+        Some(self.inward(best, finest))
+    }
+
+    /// The same, of each quality from one place alone: from where machines of other tolerances were worst.
+    pub fn worst_machines_from(&self, places: &[Worst], finest: i32) -> Vec<Worst> {
+        let from = |known: &Worst| {
+            let start = self.worst_at(known.quality, known.place.clone());
+            self.inward(self.alternate(start, finest), finest)
+        };
+        places.iter().map(from).collect()
+    }
+
+    /// Where the worst is not at the ends after all.
+    fn inward(&self, worst: Worst, finest: i32) -> Worst {
+        let inner = self.descend(worst.quality, &worst.place, finest);
+        if inner.margin < worst.margin {
+            inner
+        } else {
+            worst
+        }
     }
 
     /// Worsens the machine and the point in turn.

@@ -357,16 +357,39 @@ fn fewer(prover: &Prover<'_>, nodes: Vec<Node>, cancel: &AtomicBool) -> (Vec<Nod
 /// A certificate that a claim does not hold, if sampling finds a witness; none of a claim that is not
 /// well formed.
 pub fn refutation(claim: &MachineClaim) -> Option<Box<Certificate>> {
+    refutation_and_worst(claim)?.0
+}
+
+/// The same, and the worst place found of every quality.
+pub(crate) fn refutation_and_worst(claim: &MachineClaim) -> Option<Refutation> {
+    refutation_at(claim, |sampler| match sampler.frees() {
+        0 => sampler.worst_values(FINEST),
+        _ => sampler.worst_machines(FINEST),
+    })
+}
+
+/// The same in far less time, from where the claim was worst of machines that differ from each other more or less, and near
+/// there alone.
+pub(crate) fn refutation_from(claim: &MachineClaim, worst: &[Worst]) -> Option<Refutation> {
+    refutation_at(claim, |sampler| sampler.worst_machines_from(worst, FINEST))
+}
+
+type Refutation = (Option<Box<Certificate>>, Vec<Worst>);
+
+fn refutation_at(
+    claim: &MachineClaim,
+    sample: impl FnOnce(&Sampler<'_>) -> Vec<Worst>,
+) -> Option<Refutation> {
     let problem = Problem::new(claim).ok()?;
     let sampler = Sampler::new(claim, &problem).ok()?;
-    let worst = match problem.tolerances().next() {
-        None => sampler.worst_values(FINEST),
-        Some(_) => sampler.worst_machines(FINEST),
-    };
-    match refuted(claim, refute::refutation(claim, &problem, &sampler, &worst)?) {
-        Answer::Decided { certificate, .. } => Some(certificate),
-        Answer::Undecided(_) | Answer::Cancelled => None,
-    }
+    let worst = sample(&sampler);
+    let certificate = refute::refutation(claim, &problem, &sampler, &worst).and_then(|witness| {
+        match refuted(claim, witness) {
+            Answer::Decided { certificate, .. } => Some(certificate),
+            Answer::Undecided(_) | Answer::Cancelled => None,
+        }
+    });
+    Some((certificate, worst))
 }
 
 /// The worst values of a claim's obligations that sampling finds.
