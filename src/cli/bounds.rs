@@ -87,6 +87,8 @@ struct Row {
     not_enclosed: Option<String>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     certificates: Vec<CertificateFile>,
+    #[serde(skip)]
+    unwritten: Unwritten,
 }
 
 /// Runs it.
@@ -103,8 +105,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let claim = &design.claim;
     let budget = effort.budget_or(effort::boxes_of(claim, BOXES), started)?;
     interrupt::grant();
-    let mut unwritten = Unwritten::default();
-    let rows = rows(claim, &relative, (arguments, &mut unwritten), budget)?;
+    let rows = rows(claim, &relative, arguments, budget)?;
     match effort.format {
         Format::Json => {
             let mut answer = serde_json::json!({ "bounds": rows });
@@ -120,83 +121,99 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     }
     let complete = rows.iter().all(|row| row.not_enclosed.is_none());
     let status = if complete { Status::Done } else { Status::Undecided };
-    unwritten.told()?;
+    rows.into_iter().try_for_each(|row| row.unwritten.told())?;
     interrupt::unless_cancelled(status)
+}
+
+/// What is enclosed in one search.
+enum Question {
+    Extreme(Box<Extreme>),
+    /// The least and the greatest angle of an arm of this leg.
+    Angle(usize),
 }
 
 fn rows(
     claim: &kernel::MachineClaim,
     relative: &BigRational,
-    (arguments, unwritten): (&Arguments, &mut Unwritten),
+    arguments: &Arguments,
     budget: Budget,
 ) -> Result<Vec<Row>, Failure> {
-    let effort = &arguments.effort;
     let problem = Problem::new(claim).map_err(Failure::input)?;
     let angular = problem.legs.iter().any(Leg::is_angular);
-    let extremes = Extreme::of(claim, problem.legs.len());
+    let extremes = Extreme::of(claim, problem.legs.len()).into_iter();
     let turning = problem.legs.iter().enumerate();
     let turning = turning.filter(|(_, leg)| matches!(leg.rho, Some(Joint::Angle { .. })));
-    let turning: Vec<usize> = turning.map(|(number, _)| number).collect();
-    let (mut bar, all) = (effort.bar(), extremes.len() + turning.len());
+    let questions = extremes.map(|extreme| Question::Extreme(Box::new(extreme)));
+    let questions: Vec<Question> =
+        questions.chain(turning.map(|(leg, _)| Question::Angle(leg))).collect();
+    let mut bar = arguments.effort.bar();
     let singular = bar
-        .run("singularities", all + 1, |control| is_singular(claim, budget, control))
+        .run("singularities", questions.len() + 1, |control| is_singular(claim, budget, control))
         .map_err(|error| match error {
             NotEnclosed::Cancelled => Failure::Interrupted,
             error => Failure::input(error),
         })?;
+    let name = |(number, question): (usize, &Question)| {
+        let of = match question {
+            Question::Extreme(extreme) => {
+                let row = Row::of(claim, extreme, angular);
+                format!("{} {}", row.end, row.quantity)
+            }
+            Question::Angle(leg) => format!("rho_{}", leg + 1),
+        };
+        format!("{} of {}, {of}", number + 1, questions.len())
+    };
+    let names: Vec<String> = questions.iter().enumerate().map(name).collect();
     let possible = || match (singular, interrupt::is_cancelled()) {
         (true, _) => Err(NotEnclosed::Singular),
         (false, true) => Err(NotEnclosed::Cancelled),
         (false, false) => Ok(()),
     };
+    let found = bar.at_once(&names, 0, |number, turns, control| {
+        let budget = budget.shared(turns);
+        match &questions[number] {
+            Question::Extreme(extreme) => {
+                let found =
+                    possible().and_then(|()| enclose(claim, extreme, relative, budget, control));
+                let row = Row::of(claim, extreme, angular);
+                Ok(vec![row.found(&extreme.file_stem(), found, relative, arguments)?])
+            }
+            Question::Angle(leg) => {
+                let found = possible()
+                    .and_then(|()| sector::enclose(claim, *leg, relative, budget, control));
+                of_angle(*leg, &found, relative, arguments)
+            }
+        }
+    });
     let mut rows = exact_rows(claim);
-    for (number, extreme) in extremes.iter().enumerate() {
-        let mut row = Row::of(claim, extreme, angular);
-        let budget = budget.shared(all - number);
-        let task = format!("{} of {all}, {} {}", number + 1, row.end, row.quantity);
-        let found = possible().and_then(|()| {
-            bar.run(&task, all - number, |control| {
-                enclose(claim, extreme, relative, budget, control)
-            })
-        });
-        match found {
-            Ok(Enclosed { width, inner, outer, refuted, certified, .. }) => {
-                row.enclosed((width, inner, outer), relative);
-                let files = (refuted.as_deref(), &*certified);
-                row.store((arguments, unwritten), &extreme.file_stem(), files)?;
-            }
-            Err(error) => row.fails(error)?,
-        }
-        rows.push(row);
-    }
-    for (number, &leg) in turning.iter().enumerate() {
-        let number = extremes.len() + number;
-        let budget = budget.shared(all - number);
-        let task = format!("{} of {all}, rho_{}", number + 1, leg + 1);
-        let found = possible().and_then(|()| {
-            bar.run(&task, all - number, |control| {
-                sector::enclose(claim, leg, relative, budget, control)
-            })
-        });
-        for (side, greatest) in [false, true].into_iter().enumerate() {
-            let mut row = Row::new(format!("rho_{}", leg + 1), Some("deg"), greatest);
-            match &found {
-                Ok(Sector { certified, certificate, reached, width }) => match &reached[side] {
-                    Some((inner, refuted)) => {
-                        let outer = certified[side].clone();
-                        row.enclosed((width.clone(), inner.clone(), outer), relative);
-                        let stem = format!("rho-{}-{}", leg + 1, row.end);
-                        let files = (Some(&**refuted), &**certificate);
-                        row.store((arguments, unwritten), &stem, files)?;
-                    }
-                    None => row.fails(NotEnclosed::Undecided)?,
-                },
-                Err(error) => row.fails(error.clone())?,
-            }
-            rows.push(row);
-        }
+    for found in found {
+        rows.extend(found?);
     }
     Ok(rows)
+}
+
+/// Both rows of an arm's angle.
+fn of_angle(
+    leg: usize,
+    found: &Result<Sector, NotEnclosed>,
+    relative: &BigRational,
+    arguments: &Arguments,
+) -> Result<Vec<Row>, Failure> {
+    let row = |(side, greatest): (usize, bool)| {
+        let mut row = Row::new(format!("rho_{}", leg + 1), Some("deg"), greatest);
+        let Sector { certified, certificate, reached, width } = match found {
+            Ok(found) => found,
+            Err(error) => return row.fails(error.clone()),
+        };
+        let Some((inner, refuted)) = &reached[side] else {
+            return row.fails(NotEnclosed::Undecided);
+        };
+        row.enclosed((width.clone(), inner.clone(), certified[side].clone()), relative);
+        let stem = format!("rho-{}-{}", leg + 1, row.end);
+        row.store(arguments, &stem, (Some(&**refuted), &**certificate))?;
+        Ok(row)
+    };
+    [false, true].into_iter().enumerate().map(row).collect()
 }
 
 fn relative(text: &str) -> Result<BigRational, Failure> {
@@ -236,6 +253,7 @@ impl Row {
             wide: false,
             not_enclosed: None,
             certificates: Vec::new(),
+            unwritten: Unwritten::default(),
         }
     }
 
@@ -252,6 +270,24 @@ impl Row {
         Row { given, is_asked, ..row }
     }
 
+    /// With what was found of it.
+    fn found(
+        mut self,
+        stem: &str,
+        found: Result<Enclosed, NotEnclosed>,
+        relative: &BigRational,
+        arguments: &Arguments,
+    ) -> Result<Self, Failure> {
+        match found {
+            Ok(Enclosed { width, inner, outer, refuted, certified, .. }) => {
+                self.enclosed((width, inner, outer), relative);
+                self.store(arguments, stem, (refuted.as_deref(), &*certified))?;
+                Ok(self)
+            }
+            Err(error) => self.fails(error),
+        }
+    }
+
     /// Between a refuted bound and a certified one.
     fn enclosed(
         &mut self,
@@ -266,19 +302,17 @@ impl Row {
     }
 
     /// Not enclosed. What was found before an interruption is told.
-    fn fails(&mut self, error: NotEnclosed) -> Result<(), Failure> {
-        self.not_enclosed = Some(match error {
-            NotEnclosed::Claim(_) => return Err(Failure::input(error)),
-            NotEnclosed::Cancelled => "interrupted".to_owned(),
-            error => error.to_string(),
-        });
-        Ok(())
+    fn fails(self, error: NotEnclosed) -> Result<Self, Failure> {
+        match error {
+            NotEnclosed::Claim(_) => Err(Failure::input(error)),
+            error => Ok(Row { not_enclosed: Some(error.to_string()), ..self }),
+        }
     }
 
     /// Writes the certificates, if they are asked for; the point is that of the refutation.
     fn store(
         &mut self,
-        (arguments, unwritten): (&Arguments, &mut Unwritten),
+        arguments: &Arguments,
         stem: &str,
         (refuted, certified): (Option<&Certificate>, &Certificate),
     ) -> Result<(), Failure> {
@@ -289,7 +323,7 @@ impl Row {
             let text = certificate.to_text().map_err(|_| Failure::Defect)?;
             let path = folder.join(format!("{stem}-{side}.cert.json"));
             let stored = certify::store(Some(folder), &path, &text);
-            self.certificates.extend(unwritten.unless(stored));
+            self.certificates.extend(self.unwritten.unless(stored));
         }
         Ok(())
     }

@@ -4,8 +4,9 @@
 use super::interrupt;
 use crate::exact::decimal::grouped;
 use crate::report::text::duration;
-use crate::search::{Control, Progress, Steps};
+use crate::search::{at_once, Control, Progress, Steps};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+use std::collections::BTreeSet;
 use std::fmt;
 use std::io::{self, IsTerminal};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -25,7 +26,7 @@ const ESTIMATED: (f64, Duration) = (0.01, Duration::from_secs(2));
 /// What is drawn, of which there is at most one.
 static DRAWN: Mutex<Option<ProgressBar>> = Mutex::new(None);
 
-/// The progress of a command, in one task or in several after each other.
+/// The progress of a command, in one task or in several, after each other or at once.
 pub struct Bar {
     task: String,
     /// What is counted.
@@ -64,9 +65,34 @@ impl Bar {
         work: impl FnOnce(&mut Control<'_>) -> T,
     ) -> T {
         task.clone_into(&mut self.task);
-        let part = self.steps.take(left);
+        let part = self.steps.take(1, left);
         let mut show = |now| self.show(now);
         Control { cancel: interrupt::cancelled(), progress: &mut show }.part(part, work)
+    }
+
+    /// Does tasks that do not depend on each other, each named in a few words: see [`at_once`].
+    pub fn at_once<T: Send + Sync>(
+        &mut self,
+        names: &[String],
+        after: usize,
+        work: impl Fn(usize, usize, &mut Control<'_>) -> T + Sync,
+    ) -> Vec<T> {
+        let part = self.steps.take(names.len(), names.len() + after);
+        let under_way = Mutex::new(BTreeSet::new());
+        let under_way = || under_way.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut show = |now| {
+            self.task = together(&under_way(), names);
+            self.show(now);
+        };
+        let mut control = Control { cancel: interrupt::cancelled(), progress: &mut show };
+        control.part(part, |control| {
+            at_once(names.len(), after, control, |number, turns, control| {
+                under_way().insert(number);
+                let done = work(number, turns, control);
+                under_way().remove(&number);
+                done
+            })
+        })
     }
 
     /// Shows how far the command is: never less than before.
@@ -89,6 +115,15 @@ impl Bar {
     /// Removes it.
     pub fn end(&mut self) {
         self.shown = None;
+    }
+}
+
+/// The task that began first of those under way, and how many more there are.
+fn together(under_way: &BTreeSet<usize>, names: &[String]) -> String {
+    let first = under_way.first().map_or(String::new(), |&first| names[first].clone());
+    match under_way.len() {
+        0 | 1 => first,
+        several => format!("{first} and {} more", several - 1),
     }
 }
 
@@ -202,6 +237,11 @@ mod tests {
         assert_eq!(message("psi", 2000, "boxes"), ": psi, 2,000 boxes");
         assert_eq!(message("", 0, "cells"), "");
         assert_eq!(message("psi", 0, "boxes"), ": psi");
+        let names = ["psi", "rho", "load"].map(str::to_owned);
+        let under_way = |numbers: &[usize]| numbers.iter().copied().collect();
+        assert_eq!(together(&under_way(&[2, 0, 1]), &names), "psi and 2 more");
+        assert_eq!(together(&under_way(&[1]), &names), "rho");
+        assert_eq!(together(&under_way(&[]), &names), "");
         assert_eq!(left(0.0, 0.25, 10 * second), ", about 30 s left");
         assert_eq!(left(0.5, 0.75, 10 * second), ", about 10 s left");
         assert_eq!(left(0.0, 0.999, 10 * second), ", about 1 s left");

@@ -1,6 +1,7 @@
 //! `orthocert tolerance`.
 
 use super::certify::Unwritten;
+use super::progress::Bar;
 use super::size::{explain, file, gap, gap_text};
 use super::{effort, input, interrupt, print, Failure, Format, Status};
 use crate::design::Design;
@@ -20,7 +21,7 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::PathBuf;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Boxes after which a tolerance counts as not certified: what closes at all mostly closes in a few
 /// hundred, or in a few times as many as without tolerances.
@@ -123,84 +124,9 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let enough = BOXES.0.max(BOXES.1.saturating_mul(nodes));
     let budget = effort.budget_or(enough as u64, started)?;
     let legs = if arguments.by_leg { legs_of(&claim.mechanism) } else { 0 };
-    let mut bar = effort.bar();
-    // One of the rows that share the time that is left.
-    let mut bracket = |scheme: &Scheme, known: Bracket, left: usize| {
-        let own = each.and_then(|each| Instant::now().checked_add(each));
-        let deadline = [budget.shared(left).deadline, own].into_iter().flatten().min();
-        let budget = Budget { deadline, ..budget };
-        let found = bar.run(&words(scheme), left, |control| {
-            widest(claim, scheme, width, known, budget, control)
-        });
-        found.map_err(|error| explain(error, &design))
-    };
-    let mut rows = Vec::new();
-    let mut fill = || {
-        let schemes = schemes(&kinds);
-        let mut after = usize::from(mixed(&kinds)) + kinds.len() * legs;
-        let mut all = Vec::new();
-        for (at, (scheme, measure)) in schemes.iter().enumerate() {
-            if interrupt::is_cancelled() {
-                break;
-            }
-            let found = bracket(scheme, Bracket::default(), schemes.len() - at + after)?;
-            rows.push(row(scheme, *measure, &found, width, arguments)?);
-            all.push(found);
-        }
-        // What time the others left is for those whose time was up, first for those of which least is known: half of what is left
-        // each, for what is not proved in as much as before wants more.
-        let is_short = |found: &Bracket| found.out_of_time && !found.reaches(width);
-        let mut improved = each.is_none();
-        while std::mem::take(&mut improved) {
-            let mut short: Vec<usize> = (0..all.len()).filter(|&at| is_short(&all[at])).collect();
-            short.sort_by_key(|&at| all[at].certified.is_some());
-            for at in short {
-                if interrupt::is_cancelled() {
-                    break;
-                }
-                let (scheme, measure) = &schemes[at];
-                let found = bracket(scheme, all[at].clone(), 2 + after)?;
-                improved |= certified(&found) != certified(&all[at]);
-                rows[at] = row(scheme, *measure, &found, width, arguments)?;
-                all[at] = found;
-            }
-        }
-        let weights = kinds.iter().zip(&all);
-        let weights = weights.filter_map(|(kind, found)| Some((*kind, certified(found)?.clone())));
-        let weights: Vec<_> = weights.collect();
-        if mixed(&kinds) && weights.len() == kinds.len() {
-            interrupt::unless_cancelled(())?;
-            let scheme = Scheme { weights, leg: None };
-            let found = bracket(&scheme, Bracket::default(), after)?;
-            rows.push(row(&scheme, Measure::Share, &found, width, arguments)?);
-        }
-        after -= usize::from(mixed(&kinds));
-        for kind in kinds.iter().filter(|_| arguments.by_leg) {
-            let first = rows.len();
-            for leg in 0..legs {
-                interrupt::unless_cancelled(())?;
-                let scheme = Scheme { leg: Some(leg), ..Scheme::common(&[*kind]) };
-                let found = bracket(&scheme, Bracket::default(), after)?;
-                after -= 1;
-                let measure = measure(kind.is_direction());
-                rows.push(row(&scheme, measure, &found, width, arguments)?);
-            }
-            // The leg that allows least first.
-            let least = |row: &Row| {
-                row.certified.as_ref().and_then(Exact::as_rational).cloned().unwrap_or_default()
-            };
-            rows[first..].sort_by_key(least);
-        }
-        interrupt::unless_cancelled(())
-    };
     interrupt::grant();
-    let filled = fill();
-    drop(bar);
-    // What was found before is told.
-    match filled {
-        Err(Failure::Interrupted) if !rows.is_empty() => {}
-        filled => filled?,
-    }
+    let question = Question { claim, width, each, budget, arguments, design: &design };
+    let rows = question.rows(&kinds, legs)?;
     match effort.format {
         Format::Json => {
             let each = &arguments.each;
@@ -219,9 +145,125 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     interrupt::unless_cancelled(status)
 }
 
-/// The widest tolerance of a row that is certified.
-fn certified(found: &Bracket) -> Option<&BigRational> {
-    found.certified.as_ref().map(|(t, _)| t)
+/// What is asked of every row.
+struct Question<'a> {
+    claim: &'a MachineClaim,
+    /// The gap.
+    width: f64,
+    /// The time of each.
+    each: Option<Duration>,
+    budget: Budget,
+    arguments: &'a Arguments,
+    design: &'a Design,
+}
+
+/// What a row widens and tells, and what is known of it.
+struct Asked {
+    scheme: Scheme,
+    measure: Measure,
+    known: Bracket,
+    /// As soon as it was begun.
+    row: Option<Row>,
+}
+
+impl Asked {
+    fn new(scheme: Scheme, measure: Measure) -> Self {
+        Asked { scheme, measure, known: Bracket::default(), row: None }
+    }
+
+    /// The widest tolerance that is certified.
+    fn certified(&self) -> Option<&BigRational> {
+        self.known.certified.as_ref().map(|(t, _)| t)
+    }
+}
+
+impl Question<'_> {
+    /// The rows; interrupted, those that were begun.
+    fn rows(&self, kinds: &[Kind], legs: usize) -> Result<Vec<Row>, Failure> {
+        let bar = &mut self.arguments.effort.bar();
+        let of_legs = kinds.len() * legs;
+        let after = usize::from(mixed(kinds)) + of_legs;
+        let mut all = schemes(kinds);
+        let every: Vec<usize> = (0..all.len()).collect();
+        let time = self.budget.deadline.map(|end| end.saturating_duration_since(Instant::now()));
+        self.search(bar, (&mut all, &every), (self.budget, after), |turns| turns)?;
+        // What time the others left, but for that of those after them, is for those whose time was up, first for those of
+        // which least is known: half of what is left each, for what is not proved in as much as before wants more.
+        let of_rest = time.map(|time| time.mul_f64(after as f64 / (all.len() + after) as f64));
+        let deadline =
+            self.budget.deadline.zip(of_rest).and_then(|(end, rest)| end.checked_sub(rest));
+        let budget = Budget { deadline, ..self.budget };
+        let mut improved = self.each.is_none();
+        while std::mem::take(&mut improved) && !budget.is_over() {
+            let is_short =
+                |asked: &Asked| asked.known.out_of_time && !asked.known.reaches(self.width);
+            let mut short = every.clone();
+            short.retain(|&at| is_short(&all[at]));
+            short.sort_by_key(|&at| all[at].certified().is_some());
+            improved = self.search(bar, (&mut all, &short), (budget, after), |_| 2)?;
+        }
+        let weights = kinds.iter().zip(&all);
+        let weights = weights.filter_map(|(kind, asked)| Some((*kind, asked.certified()?.clone())));
+        let weights: Vec<_> = weights.collect();
+        if mixed(kinds) && weights.len() == kinds.len() {
+            let mut share = [Asked::new(Scheme { weights, leg: None }, Measure::Share)];
+            self.search(bar, (&mut share, &[0]), (self.budget, of_legs), |turns| turns)?;
+            all.extend(share);
+        }
+        let of_leg = |(kind, leg): (&Kind, usize)| {
+            let scheme = Scheme { leg: Some(leg), ..Scheme::common(&[*kind]) };
+            Asked::new(scheme, measure(kind.is_direction()))
+        };
+        let pairs = kinds.iter().flat_map(|kind| (0..legs).map(move |leg| (kind, leg)));
+        let mut by_leg: Vec<Asked> = pairs.map(of_leg).collect();
+        let every: Vec<usize> = (0..by_leg.len()).collect();
+        self.search(bar, (&mut by_leg, &every), (self.budget, 0), |turns| turns)?;
+        // The leg that allows least first.
+        for of_kind in by_leg.chunks_mut(legs.max(1)) {
+            of_kind.sort_by_key(|asked| asked.certified().cloned().unwrap_or_default());
+        }
+        let rows: Vec<Row> = all.into_iter().chain(by_leg).filter_map(|asked| asked.row).collect();
+        match rows.is_empty() {
+            true => interrupt::unless_cancelled(rows),
+            false => Ok(rows),
+        }
+    }
+
+    /// Searches for some of these, `after` which come so many more; whether more is certified than was. Each has its
+    /// share of the time that is left, which is in as many parts as `parts` makes of the turns in which all are done.
+    fn search(
+        &self,
+        bar: &mut Bar,
+        (all, which): (&mut [Asked], &[usize]),
+        (budget, after): (Budget, usize),
+        parts: impl Fn(usize) -> usize + Sync,
+    ) -> Result<bool, Failure> {
+        let names: Vec<String> = which.iter().map(|&at| words(&all[at].scheme)).collect();
+        let own = &*all;
+        let found: Vec<Result<_, Failure>> =
+            bar.at_once(&names, after, |number, turns, control| {
+                let Asked { scheme, measure, known, .. } = &own[which[number]];
+                if interrupt::is_cancelled() {
+                    return Ok(None);
+                }
+                let own = self.each.and_then(|each| Instant::now().checked_add(each));
+                let shared = budget.shared(parts(turns)).deadline;
+                let deadline = [shared, own].into_iter().flatten().min();
+                let budget = Budget { deadline, ..self.budget };
+                let found = widest(self.claim, scheme, self.width, known.clone(), budget, control)
+                    .map_err(|error| explain(error, self.design))?;
+                let row = row(scheme, *measure, &found, self.width, self.arguments)?;
+                Ok(Some((found, row)))
+            });
+        let mut improved = false;
+        for (&at, found) in which.iter().zip(found) {
+            let Some((known, row)) = found? else { continue };
+            let before = all[at].certified().cloned();
+            (all[at].known, all[at].row) = (known, Some(row));
+            improved |= all[at].certified() != before.as_ref();
+        }
+        Ok(improved)
+    }
 }
 
 fn too_large() -> Failure {
@@ -280,14 +322,14 @@ fn measure(direction: bool) -> Measure {
 }
 
 /// Every kind alone, then all lengths and all directions by a common tolerance.
-fn schemes(kinds: &[Kind]) -> Vec<(Scheme, Measure)> {
-    let alone = |kind: &Kind| (Scheme::common(&[*kind]), measure(kind.is_direction()));
-    let mut all: Vec<(Scheme, Measure)> = kinds.iter().map(alone).collect();
+fn schemes(kinds: &[Kind]) -> Vec<Asked> {
+    let alone = |kind: &Kind| Asked::new(Scheme::common(&[*kind]), measure(kind.is_direction()));
+    let mut all: Vec<Asked> = kinds.iter().map(alone).collect();
     for direction in [false, true] {
         let same: Vec<Kind> =
             kinds.iter().copied().filter(|kind| kind.is_direction() == direction).collect();
         if same.len() > 1 {
-            all.push((Scheme::common(&same), measure(direction)));
+            all.push(Asked::new(Scheme::common(&same), measure(direction)));
         }
     }
     all

@@ -7,7 +7,7 @@ use crate::report::{text, Margin, Report};
 use crate::search::solver;
 use crate::search::solver::enclose::enclose;
 use crate::search::solver::extremes::Extreme;
-use crate::search::{Budget, Control};
+use crate::search::Budget;
 use num_rational::BigRational;
 use orthocert_kernel::claim::{MachineClaim, Orientation};
 use orthocert_kernel::problem::Problem;
@@ -115,13 +115,13 @@ fn margins(
     let Ok(problem) = Problem::new(claim) else { return Vec::new() };
     let angular = problem.legs.iter().any(orthocert_kernel::machine::Leg::is_angular);
     let all = Extreme::required(claim, problem.legs.len());
-    let (mut bar, count) = (effort.bar(), all.len());
-    let enclosed = |(number, extreme): (usize, Extreme)| {
-        let find = |control: &mut Control<'_>| enclose(claim, &extreme, &width, budget, control);
-        let found = bar.run("margins", count - number, find).ok()?;
-        Some(Margin::of(&extreme, found.outer, angular))
-    };
-    all.into_iter().enumerate().filter_map(enclosed).collect()
+    let name = |extreme: &Extreme| format!("margin of {}", extreme.quantity());
+    let names: Vec<String> = all.iter().map(name).collect();
+    let found = effort.bar().at_once(&names, 0, |number, turns, control| {
+        let found = enclose(claim, &all[number], &width, budget.shared(turns), control).ok()?;
+        Some(Margin::of(&all[number], found.outer, angular))
+    });
+    found.into_iter().flatten().collect()
 }
 
 /// Where the certificate goes: never over the design.

@@ -3,12 +3,16 @@
 //! | module       | does                                                                  |
 //! |--------------|-----------------------------------------------------------------------|
 //! | [`accepted`] | accepted certificates, and the size of their proofs                   |
+//! | `at_once`    | searches for several answers, as many at once as there are threads    |
 //! | [`paving`]   | the region of a box where a claim holds, from within and from without |
 //! | [`solver`]   | decides claims about machines of every kind; encloses extremes        |
 
 pub mod accepted;
+mod at_once;
 pub mod paving;
 pub mod solver;
+
+pub use at_once::at_once;
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
@@ -62,7 +66,7 @@ pub struct Progress {
 pub struct Control<'a> {
     /// Set to make the search end with [`Stop::Cancelled`].
     pub cancel: &'a AtomicBool,
-    /// Called now and then, from the thread that started the search.
+    /// Called now and then, by one thread at a time.
     pub progress: &'a mut (dyn FnMut(Progress) + Send),
 }
 
@@ -90,10 +94,10 @@ impl Control<'_> {
 pub struct Steps(f64);
 
 impl Steps {
-    /// The share of the next step, one of `left`.
-    pub fn take(&mut self, left: usize) -> [f64; 2] {
+    /// The share of the next so many steps, of `left`.
+    pub fn take(&mut self, steps: usize, left: usize) -> [f64; 2] {
         let from = self.0;
-        self.0 += (1.0 - from) / left.max(1) as f64;
+        self.0 += (1.0 - from) * steps as f64 / left.max(1) as f64;
         [from, self.0]
     }
 
@@ -104,7 +108,7 @@ impl Steps {
         left: usize,
         work: impl FnOnce(&mut Control<'_>) -> T,
     ) -> T {
-        control.part(self.take(left), work)
+        control.part(self.take(1, left), work)
     }
 }
 

@@ -66,7 +66,8 @@ fn an_interrupted_run_keeps_the_certificate_that_was_there() {
 fn interrupted_bounds_tell_what_was_enclosed() {
     let folder = Folder::new();
     folder.write("d.toml", include_str!("../designs/kernel/hexapod-forces.toml"));
-    let mut command = folder.command(&["bounds", "d.toml", "-o", ".", "--relative", "0.1"]);
+    let arguments = ["bounds", "d.toml", "-o", ".", "--relative", "0.1", "--threads", "1"];
+    let mut command = folder.command(&arguments);
     let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     // One certificate of each side is there once the first row is.
     while folder.names().len() < 3 {

@@ -153,6 +153,26 @@ fn the_prototype_has_the_strokes_and_speeds_of_its_theory() {
     assert_eq!(answer["left_out"].as_array().unwrap().len(), 0);
 }
 
+/// Rows are searched side by side: all are there, in their order, with what one thread finds.
+#[test]
+fn rows_do_not_depend_on_the_threads() {
+    let design = "rotary-delta-linuxcnc.toml";
+    let folder = Folder::with(&[design]);
+    for command in [&["summary", design][..], &["bounds", design, "--relative", "0.01"]] {
+        let answer = |threads: &str| {
+            let more = ["--format", "json", "--threads", threads];
+            let text = folder.run(&[command, &more].concat()).exits(0).stdout;
+            let mut answer: Value = serde_json::from_str(&text).unwrap();
+            answer["seconds"].take();
+            answer
+        };
+        let one = answer("1");
+        let rows = one.get("values").or(one.get("bounds")).and_then(Value::as_array).unwrap();
+        assert!(rows.len() > 5, "{one}");
+        assert_eq!(one, answer("5"), "{command:?}");
+    }
+}
+
 #[test]
 fn the_first_lines_answer_the_question() {
     let folder = Folder::new();

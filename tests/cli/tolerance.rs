@@ -72,8 +72,10 @@ fn kinds_together_admit_less_than_each_alone() {
 #[test]
 fn the_answer_does_not_depend_on_the_threads() {
     let folder = Folder::with(&[DESIGN]);
-    let one = widened(&folder, &["--on", "anchor", "--threads", "1"]);
-    assert_eq!(one, widened(&folder, &["--on", "anchor", "--threads", "3"]));
+    let asked = ["--on", "anchor,leg_length", "--by-leg", "--max-boxes", "100", "--threads"];
+    let one = widened(&folder, &[&asked[..], &["1"]].concat());
+    assert_eq!(one["tolerances"].as_array().map(Vec::len), Some(3 + 2 * 3));
+    assert_eq!(one, widened(&folder, &[&asked[..], &["4"]].concat()));
     let short = ["--on", "anchor", "--gap", "0.0001", "--max-boxes", "60"];
     let text = folder.run(&[&["tolerance", DESIGN], &short[..]].concat()).exits(3).stdout;
     assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");

@@ -182,7 +182,7 @@ impl<F: Family> Search<'_, F> {
     /// A claim's verdict, where so many are still to be found in this direction.
     fn decide(&mut self, claim: &F::Claim, here: usize) -> Result<Found<F>, NoAnswer> {
         let others = self.directions.saturating_sub(1) * (STEPS as usize / 2 + self.halves(1.0));
-        let part = self.steps.take(here + others);
+        let part = self.steps.take(1, here + others);
         match self.family.decide(claim, part) {
             Err(NoAnswer::Cancelled) => {
                 self.cancelled = true;

@@ -32,7 +32,7 @@ use crate::search::solver::enclose::{enclose, is_singular, reached, Enclosed, No
 use crate::search::solver::extremes::Extreme;
 use crate::search::solver::value::{Bounded, Coordinates};
 use crate::search::solver::{sector, Verification};
-use crate::search::{Budget, Control, Steps};
+use crate::search::{at_once, Budget, Control, Steps};
 use asked::{asked, Asked};
 use num_rational::BigRational;
 use orthocert_checker::certificate::Verdict;
@@ -40,6 +40,7 @@ use orthocert_kernel::claim::{Bound, MachineClaim, Requirement};
 use orthocert_kernel::problem::Problem;
 use serde::Serialize;
 use std::collections::BTreeMap;
+use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
 /// The answer.
@@ -156,7 +157,7 @@ pub fn summary(
     let mut steps = Steps::default();
     let (all, left_out) = asked(claim, &problem, question);
     let shares = shares::deviations(claim);
-    let mut left = 1 + all.len() + shares;
+    let left = 1 + all.len() + shares;
     let singular = match certified {
         true => Ok(false),
         false => steps.next(control, left, |control| is_singular(claim, budget, control)),
@@ -165,37 +166,41 @@ pub fn summary(
         Err(NotEnclosed::Cancelled) => false,
         known => known?,
     };
-    let mut found = Vec::new();
     // Distance and angle are found together.
-    let mut off: Option<Result<[End; 2], NotEnclosed>> = None;
-    for asked in all {
-        left -= 1;
-        let ends = match &asked {
-            _ if singular => Err(NotEnclosed::Singular),
-            _ if control.is_cancelled() => Err(NotEnclosed::Cancelled),
-            _ if budget.is_over() => Err(NotEnclosed::Time),
-            Asked::Extreme(extreme)
-                if deviation::is_one_of_two(claim, &extreme.bounded().requirement) =>
-            {
-                // The distance has its bound as a question, the angle the claim's own requirement.
-                let own = claim.require.iter().find(|own| own.quantity == "accuracy");
-                let both = off.get_or_insert_with(|| {
-                    let own = own.ok_or(NotEnclosed::Undecided)?;
-                    steps.next(control, left, |control| {
-                        deviation::deviation(claim, own, Some(&question.gap), budget, control)
-                    })
-                });
-                let at = usize::from(extreme.bounded().angle);
-                both.clone().map(|both| vec![both[at].clone()])
+    let off: OnceLock<Result<[End; 2], NotEnclosed>> = OnceLock::new();
+    let find = |asked: &Asked, budget: Budget, control: &mut Control<'_>| match asked {
+        _ if singular => Err(NotEnclosed::Singular),
+        _ if control.is_cancelled() => Err(NotEnclosed::Cancelled),
+        _ if budget.is_over() => Err(NotEnclosed::Time),
+        Asked::Extreme(extreme)
+            if deviation::is_one_of_two(claim, &extreme.bounded().requirement) =>
+        {
+            // The distance has its bound as a question, the angle the claim's own requirement.
+            let own = claim.require.iter().find(|own| own.quantity == "accuracy");
+            let both = off.get_or_init(|| {
+                let own = own.ok_or(NotEnclosed::Undecided)?;
+                deviation::deviation(claim, own, Some(&question.gap), budget, control)
+            });
+            let at = usize::from(extreme.bounded().angle);
+            both.clone().map(|both| vec![both[at].clone()])
+        }
+        asked => ends(claim, asked, certified, &question.gap, budget, control),
+    };
+    let part = steps.take(all.len(), all.len() + shares);
+    let ends = control.part(part, |control| {
+        at_once(all.len(), shares, control, |number, turns, control| {
+            let ends = find(&all[number], budget.shared(turns), control);
+            match certified {
+                true => tightened(claim, &all[number], ends, &question.gap),
+                false => ends,
             }
-            asked => steps.next(control, left, |control| {
-                ends(claim, asked, certified, &question.gap, budget, control)
-            }),
-        };
+        })
+    });
+    let mut found = Vec::new();
+    for (asked, ends) in all.into_iter().zip(ends) {
         if let Err(error @ NotEnclosed::Claim(_)) = ends {
             return Err(error);
         }
-        let ends = if certified { tightened(claim, &asked, ends, &question.gap) } else { ends };
         found.push(Found { asked, ends });
     }
     let facts = Facts::new(claim, &problem);

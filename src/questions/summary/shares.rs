@@ -7,7 +7,7 @@ use crate::questions::tolerance::{around, parameters};
 use crate::report::parameter;
 use crate::search::solver::enclose::{enclose, NotEnclosed};
 use crate::search::solver::extremes::Extreme;
-use crate::search::{Budget, Control, Steps};
+use crate::search::{at_once, Budget, Control};
 use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
 use orthocert_kernel::claim::{Leg, MachineClaim, Mechanism, Quantity, Requirement, Turning};
@@ -118,43 +118,44 @@ pub fn shares(
         given.insert("joint_error".to_owned(), vec![Expression::integer(0)]);
         Requirement { given, ..own.clone() }
     };
-    let few = budget.at_most(FEW);
     let has_error = own
         .given
         .get("joint_error")
         .is_some_and(|all| !all.iter().any(|x| x.rational().is_some_and(|x| x.is_zero())));
-    let mut rows = Vec::new();
-    let mut not_enclosed = Vec::new();
     let deviations = (0..count).map(Some).chain(has_error.then_some(None));
-    let mut steps = Steps::default();
-    for (number, kept) in deviations.enumerate() {
+    let deviations: Vec<Option<usize>> = deviations.collect();
+    let bound = |kept: Option<usize>, budget: Budget, control: &mut Control<'_>| {
         let requirement = if kept.is_some() { exact_joints.clone() } else { own.clone() };
         let one = alone(claim, kept).zip(Extreme::on(requirement, None));
-        let Some((mut one, extreme)) = one else { continue };
+        let Some((mut one, extreme)) = one else { return Ok(None) };
         one.require = vec![extreme.bounded().requirement.clone()];
         let name = match kept {
             None => (None, "joint_error".to_owned()),
             Some(_) => {
                 let problem = Problem::new(&one)?;
                 let place = problem.tolerances().next().map(|(place, ..)| parameter(place));
-                let Some(place) = place else { continue };
+                let Some(place) = place else { return Ok(None) };
                 place
             }
         };
-        let bound = match budget.is_over() {
-            true => Err(NotEnclosed::Time),
-            false => steps.next(control, 1 + count - number.min(count), |control| {
-                let own = &one.require[0];
-                match is_one_of_two(&one, own) {
-                    true => deviation(&one, own, None, few, control)
-                        .map(|[End { certified, .. }, _]| certified),
-                    false => enclose(&one, &extreme, gap, budget, control).map(|found| found.outer),
-                }
-            }),
+        let own = &one.require[0];
+        let bound = match is_one_of_two(&one, own) {
+            _ if budget.is_over() => Err(NotEnclosed::Time),
+            true => deviation(&one, own, None, budget.at_most(FEW), control)
+                .map(|[End { certified, .. }, _]| certified),
+            false => enclose(&one, &extreme, gap, budget, control).map(|found| found.outer),
         };
-        match bound {
-            Ok(certified) => rows.push((name, certified)),
-            Err(_) => not_enclosed.push(named(&name)),
+        Ok::<_, NotEnclosed>(Some((name, bound)))
+    };
+    let bounds = at_once(deviations.len(), 0, control, |number, turns, control| {
+        bound(deviations[number], budget.shared(turns), control)
+    });
+    let (mut rows, mut not_enclosed) = (Vec::new(), Vec::new());
+    for bound in bounds {
+        match bound? {
+            Some((name, Ok(certified))) => rows.push((name, certified)),
+            Some((name, Err(_))) => not_enclosed.push(named(&name)),
+            None => {}
         }
     }
     rows.sort_by(|a, b| b.1.cmp(&a.1));
