@@ -52,6 +52,10 @@ impl<P: Boxes> Boxes for Ahead<'_, P> {
         }
         trial
     }
+
+    fn is_costly(&self) -> bool {
+        self.problem.is_costly()
+    }
 }
 
 /// A tree of fewer nodes than one of moderate size, or that one; and how many boxes were tried for it.

@@ -182,6 +182,10 @@ impl Boxes for Prover<'_> {
     fn trial(&self, cell: &Cell, open: &[usize], asked: bool) -> Trial {
         self.tried(cell, (open, asked), false)
     }
+
+    fn is_costly(&self) -> bool {
+        self.root.len() > 3 || self.problem.tolerances().next().is_some()
+    }
 }
 
 /// The same problem with directions apart, where nothing else helps.
@@ -198,6 +202,10 @@ impl Boxes for Apart<'_> {
 
     fn trial(&self, cell: &Cell, open: &[usize], asked: bool) -> Trial {
         self.0.tried(cell, (open, asked), true)
+    }
+
+    fn is_costly(&self) -> bool {
+        self.0.is_costly()
     }
 }
 

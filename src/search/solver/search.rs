@@ -18,7 +18,7 @@ pub type Cell = Vec<Pair>;
 const MOST_HALVINGS: u32 = 40;
 /// Halvings a coordinate down to which a box is followed although its centre defeats every proposal.
 const HOPELESS_HALVINGS: u32 = 4;
-/// Boxes of a level from which on the thread pool takes them.
+/// Boxes of a level from which on the thread pool takes them, where each costs little.
 const PARALLEL_FROM: usize = 32;
 /// Boxes between two looks at how far it is.
 const BATCH: usize = 128;
@@ -137,6 +137,10 @@ pub trait Boxes: Sync {
     fn obligations(&self) -> usize;
     /// What becomes of a box on which these are open; where `asked`, whether it is hopeless.
     fn trial(&self, cell: &Cell, open: &[usize], asked: bool) -> Trial;
+    /// Whether each box costs far more than to give it to another thread: of platforms that turn it does.
+    fn is_costly(&self) -> bool {
+        self.root().len() > 3
+    }
 }
 
 struct Growing {
@@ -279,12 +283,10 @@ fn tried(
         let asked = *depth >= HOPELESS_HALVINGS * cell.len() as u32;
         Ok(problem.trial(cell, obligations, asked))
     };
-    // Boxes of platforms that turn are costly each.
-    let is_small = problem.root().len() <= 3;
-    if is_small && batch.len() < PARALLEL_FROM {
-        batch.iter().map(one).collect()
-    } else {
+    if batch.len() >= PARALLEL_FROM || (batch.len() > 1 && problem.is_costly()) {
         batch.par_iter().map(one).collect()
+    } else {
+        batch.iter().map(one).collect()
     }
 }
 
