@@ -64,6 +64,52 @@ fn short([low, high]: [f64; 2]) -> impl Iterator<Item = (i64, u32)> {
     MULTIPLES.into_iter().filter_map(part)
 }
 
+/// What a test leaves at each vertex, or control point, which is computed once, and where it is wanted.
+struct Left<'a> {
+    margin: &'a dyn Fn(Vertex) -> Option<f64>,
+    points: Vec<Vertex>,
+    /// The point that is looked at first.
+    first: usize,
+    known: Vec<OnceCell<Option<f64>>>,
+}
+
+impl<'a> Left<'a> {
+    fn new(over: &Over<'_>, margin: &'a dyn Fn(Vertex) -> Option<f64>) -> Self {
+        let points: Vec<Vertex> = over.formulas.vertices().collect();
+        let known = vec![OnceCell::new(); points.len()];
+        Left { margin, points, first: over.formulas.first, known }
+    }
+
+    fn of(&self, k: usize) -> Option<f64> {
+        *self.known[k].get_or_init(|| (self.margin)(self.points[k]))
+    }
+
+    /// The first multiple of `g` with which a test holds, if there is one; `None` where it is not known what the test leaves.
+    fn first_with<T>(
+        &self,
+        g: &[f64],
+        holds: impl Fn((i64, u32)) -> Option<T>,
+    ) -> Option<Option<T>> {
+        // First those of which a margin that is not positive tells that no multiple is of use.
+        let mut order: Vec<usize> = (0..g.len()).collect();
+        order.sort_by(|&i, &j| g[j].total_cmp(&g[i]));
+        order.sort_by_key(|&k| k != self.first);
+        let multiples = |step| interval(order.iter().step_by(step).map(|&k| (self.of(k), g[k])));
+        // Multiples that are right for some points mostly are so for all.
+        let few = g.len().div_ceil(FEW_POINTS);
+        let some = multiples(few)?;
+        let first = some.filter(|_| few > 1).and_then(|some| short(some).next());
+        if let Some(found) = first.and_then(&holds) {
+            return Some(Some(found));
+        }
+        let Some(multiples) = some.and_then(|_| multiples(1)?) else { return Some(None) };
+        let known: Vec<f64> = (0..g.len()).filter_map(|k| self.of(k)).collect();
+        let others = LEFT.iter().filter_map(|&part| best(&known, g, part));
+        let others = others.filter_map(|(_, [low, high])| between(low, high));
+        Some(short(multiples).chain(others).find_map(holds))
+    }
+}
+
 /// Wraps evidence.
 pub type With = fn(Box<Evidence>, i64, u32) -> Evidence;
 
@@ -88,45 +134,26 @@ impl Over<'_> {
         if all.is_empty() {
             return None;
         }
+        let left = Left::new(self, margin);
         let holds = |evidence: Evidence| self.shows(test, &evidence).then_some(evidence);
-        let points: Vec<Vertex> = self.formulas.vertices().collect();
-        let known = vec![OnceCell::new(); points.len()];
-        let of = |k: usize| *known[k].get_or_init(|| margin(points[k]));
-        let with = |with: &With, (n, places)| with(Box::new(evidence.clone()), n, places);
+        let with = |wrap: &With, (n, places)| wrap(Box::new(evidence.clone()), n, places);
         for (wrap, g) in &all {
-            // First those of which a margin that is not positive tells that no multiple is of use.
-            let mut order: Vec<usize> = (0..points.len()).collect();
-            order.sort_by(|&i, &j| g[j].total_cmp(&g[i]));
-            order.sort_by_key(|&k| k != self.formulas.first);
-            let multiples =
-                |step: usize| interval(order.iter().step_by(step).map(|&k| (of(k), g[k])));
-            // Multiples that are right for some points mostly are so for all.
-            let few = points.len().div_ceil(FEW_POINTS);
-            let Some(some) = multiples(few) else {
-                let mut tried = all.iter().flat_map(|(wrap, _)| POWERS.map(move |k| (wrap, k)));
-                return tried.find_map(|(wrap, k)| {
-                    holds(with(wrap, between(f64::from(k).exp2(), f64::from(k).exp2())?))
-                });
-            };
-            let first = some.filter(|_| few > 1).and_then(|some| short(some).next());
-            if let Some(found) = first.and_then(|n| holds(with(wrap, n))) {
-                return Some(found);
-            }
-            let Some(multiples) = some.and_then(|_| multiples(1)?) else { continue };
-            let known: Vec<f64> = (0..points.len()).filter_map(of).collect();
-            let others = LEFT.iter().filter_map(|&part| best(&known, g, part));
-            let others = others.filter_map(|(_, [low, high])| between(low, high));
-            let found = short(multiples).chain(others).find_map(|n| holds(with(wrap, n)));
-            if found.is_some() {
-                return found;
+            match left.first_with(g, |n| holds(with(wrap, n))) {
+                Some(Some(found)) => return Some(found),
+                Some(None) => {}
+                None => {
+                    let mut tried = all.iter().flat_map(|(wrap, _)| POWERS.map(move |k| (wrap, k)));
+                    let power = |k| between(f64::from(k).exp2(), f64::from(k).exp2());
+                    return tried.find_map(|(wrap, k)| holds(with(wrap, power(k)?)));
+                }
             }
         }
         let [(inside, t), (turned, g)] = &all[..] else { return None };
         POWERS.into_iter().find_map(|k| {
             let mu = f64::from(k).exp2();
-            let left = (0..points.len()).map(|k| (of(k).map(|m| m - mu * t[k]), g[k]));
             let inner = with(inside, between(mu, mu)?);
-            let mut multiples = short(interval(left)??);
+            let less = |k: usize| (left.of(k).map(|m| m - mu * t[k]), g[k]);
+            let mut multiples = short(interval((0..g.len()).map(less))??);
             multiples.find_map(|(n, places)| holds(turned(Box::new(inner.clone()), n, places)))
         })
     }
