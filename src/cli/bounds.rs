@@ -157,7 +157,7 @@ fn rows(
         let of = match question {
             Question::Extreme(extreme) => {
                 let row = Row::of(claim, extreme, angular);
-                format!("{} {}", row.end, row.quantity)
+                format!("{} {}", row.end, in_words(&row.quantity))
             }
             Question::Angle(leg) => format!("rho_{}", leg + 1),
         };

@@ -4,7 +4,7 @@
 use super::interrupt;
 use crate::exact::decimal::grouped;
 use crate::report::text::duration;
-use crate::search::{at_once, Control, Progress, Steps};
+use crate::search::{at_once, Control, Counted, Progress, Steps};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::collections::BTreeSet;
 use std::fmt;
@@ -35,8 +35,7 @@ pub struct Bar {
     steps: Steps,
     /// The share of the command that is done.
     share: f64,
-    /// Boxes of the searches that ended, and of the one under way.
-    boxes: [usize; 2],
+    boxes: Counted,
     /// None where nobody looks.
     shown: Option<Drawn>,
 }
@@ -53,7 +52,7 @@ impl Bar {
         let wanted = !quiet && io::stderr().is_terminal();
         let (task, steps) = (String::new(), Steps::default());
         let shown = wanted.then(Drawn::new);
-        Bar { task, counted, steps, share: 0.0, boxes: [0, 0], shown }
+        Bar { task, counted, steps, share: 0.0, boxes: Counted::default(), shown }
     }
 
     /// Does a task, which can be interrupted, one of `left`: named in a few words, or in none where the
@@ -81,13 +80,16 @@ impl Bar {
         let under_way = Mutex::new(BTreeSet::new());
         let under_way = || under_way.lock().unwrap_or_else(PoisonError::into_inner);
         let mut show = |now| {
-            self.task = together(&under_way(), names);
+            if let Some(task) = together(&under_way(), names) {
+                self.task = task;
+            }
             self.show(now);
         };
         let mut control = Control { cancel: interrupt::cancelled(), progress: &mut show };
         control.part(part, |control| {
             at_once(names.len(), after, control, |number, turns, control| {
                 under_way().insert(number);
+                (control.progress)(Progress { boxes: 0, share: 0.0 });
                 let done = work(number, turns, control);
                 under_way().remove(&number);
                 done
@@ -97,14 +99,11 @@ impl Bar {
 
     /// Shows how far the command is: never less than before.
     pub fn show(&mut self, now: Progress) {
-        if now.boxes < self.boxes[1] {
-            self.boxes[0] += self.boxes[1];
-        }
-        self.boxes[1] = now.boxes;
+        let boxes = self.boxes.with(now.boxes);
         self.share = self.share.max(now.share.min(1.0));
         let Some(Drawn { bar, .. }) = &self.shown else { return };
         bar.set_position((self.share * STEPS as f64) as u64);
-        bar.set_message(message(&self.task, self.boxes[0] + self.boxes[1], self.counted));
+        bar.set_message(message(&self.task, boxes, self.counted));
     }
 
     /// Shows that so much more is done.
@@ -119,12 +118,12 @@ impl Bar {
 }
 
 /// The task that began first of those under way, and how many more there are.
-fn together(under_way: &BTreeSet<usize>, names: &[String]) -> String {
-    let first = under_way.first().map_or(String::new(), |&first| names[first].clone());
-    match under_way.len() {
-        0 | 1 => first,
+fn together(under_way: &BTreeSet<usize>, names: &[String]) -> Option<String> {
+    let first = names.get(*under_way.first()?)?;
+    Some(match under_way.len() {
+        1 => first.clone(),
         several => format!("{first} and {} more", several - 1),
-    }
+    })
 }
 
 /// `: psi, 2,000 boxes`.
@@ -227,7 +226,7 @@ mod tests {
                     (control.progress)(Progress { boxes, share });
                 }
             });
-            assert_eq!((bar.share, bar.boxes[0] + bar.boxes[1]), (share, boxes));
+            assert_eq!((bar.share, bar.boxes.with(0)), (share, boxes));
         }
     }
 
@@ -239,9 +238,9 @@ mod tests {
         assert_eq!(message("psi", 0, "boxes"), ": psi");
         let names = ["psi", "rho", "load"].map(str::to_owned);
         let under_way = |numbers: &[usize]| numbers.iter().copied().collect();
-        assert_eq!(together(&under_way(&[2, 0, 1]), &names), "psi and 2 more");
-        assert_eq!(together(&under_way(&[1]), &names), "rho");
-        assert_eq!(together(&under_way(&[]), &names), "");
+        assert_eq!(together(&under_way(&[2, 0, 1]), &names).unwrap(), "psi and 2 more");
+        assert_eq!(together(&under_way(&[1]), &names).unwrap(), "rho");
+        assert_eq!(together(&under_way(&[]), &names), None);
         assert_eq!(left(0.0, 0.25, 10 * second), ", about 30 s left");
         assert_eq!(left(0.5, 0.75, 10 * second), ", about 10 s left");
         assert_eq!(left(0.0, 0.999, 10 * second), ", about 1 s left");

@@ -15,6 +15,7 @@ use crate::report::{counterexample, CertificateFile, Counterexample};
 use crate::search::solver::{proof, refutation};
 use crate::search::Budget;
 use num_rational::BigRational;
+use num_traits::ToPrimitive;
 use orthocert_checker::certificate::{Proof, Verdict};
 use orthocert_kernel::claim::{MachineClaim, Mechanism};
 use serde::Serialize;
@@ -43,7 +44,8 @@ pub struct Arguments {
     /// Relative distance of the certified and the refuted tolerance to stop at
     #[arg(long, value_name = "WIDTH", default_value = "0.1", allow_hyphen_values = true)]
     gap: String,
-    /// Time for each row of the answer [default: no limit]: seconds, or a number with ms, s, min or h
+    /// Time for each row of the answer, by the clock, though as many are searched at once as there are threads and cores
+    /// [default: no limit]: seconds, or a number with ms, s, min or h
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     each: Option<String>,
     /// Widen the parameters of one leg at a time, too, and rank the legs
@@ -157,23 +159,39 @@ struct Question<'a> {
     design: &'a Design,
 }
 
+/// The time of rows that are searched for at once.
+struct Time {
+    budget: Budget,
+    /// So many more rows come after them.
+    after: usize,
+    /// Each has half of what is left, in place of its share.
+    halves: bool,
+}
+
 /// What a row widens and tells, and what is known of it.
 struct Asked {
     scheme: Scheme,
     measure: Measure,
     known: Bracket,
+    /// About where it is refuted, as other rows tell.
+    about: Option<f64>,
     /// As soon as it was begun.
     row: Option<Row>,
 }
 
 impl Asked {
     fn new(scheme: Scheme, measure: Measure) -> Self {
-        Asked { scheme, measure, known: Bracket::default(), row: None }
+        Asked { scheme, measure, known: Bracket::default(), about: None, row: None }
     }
 
     /// The widest tolerance that is certified.
     fn certified(&self) -> Option<&BigRational> {
         self.known.certified.as_ref().map(|(t, _)| t)
+    }
+
+    /// The narrowest that is refuted.
+    fn refuted(&self) -> Option<&BigRational> {
+        self.known.refuted.as_ref().map(|(t, _)| t)
     }
 }
 
@@ -186,7 +204,7 @@ impl Question<'_> {
         let mut all = schemes(kinds);
         let every: Vec<usize> = (0..all.len()).collect();
         let time = self.budget.deadline.map(|end| end.saturating_duration_since(Instant::now()));
-        self.search(bar, (&mut all, &every), (self.budget, after), |turns| turns)?;
+        self.search(bar, (&mut all, &every), Time { budget: self.budget, after, halves: false })?;
         // What time the others left, but for that of those after them, is for those whose time was up, first for those of
         // which least is known: half of what is left each, for what is not proved in as much as before wants more.
         let of_rest = time.map(|time| time.mul_f64(after as f64 / (all.len() + after) as f64));
@@ -200,24 +218,33 @@ impl Question<'_> {
             let mut short = every.clone();
             short.retain(|&at| is_short(&all[at]));
             short.sort_by_key(|&at| all[at].certified().is_some());
-            improved = self.search(bar, (&mut all, &short), (budget, after), |_| 2)?;
+            let time = Time { budget, after, halves: true };
+            improved = self.search(bar, (&mut all, &short), time)?;
         }
         let weights = kinds.iter().zip(&all);
         let weights = weights.filter_map(|(kind, asked)| Some((*kind, asked.certified()?.clone())));
         let weights: Vec<_> = weights.collect();
         if mixed(kinds) && weights.len() == kinds.len() {
             let mut share = [Asked::new(Scheme { weights, leg: None }, Measure::Share)];
-            self.search(bar, (&mut share, &[0]), (self.budget, of_legs), |turns| turns)?;
+            // A machine that fails with one kind is among those of all.
+            let of_kind = |asked: &Asked| (asked.refuted()? / asked.certified()?).to_f64();
+            let shares = all[..kinds.len()].iter().filter_map(of_kind);
+            share[0].about = shares.min_by(f64::total_cmp);
+            let time = Time { budget: self.budget, after: of_legs, halves: false };
+            self.search(bar, (&mut share, &[0]), time)?;
             all.extend(share);
         }
-        let of_leg = |(kind, leg): (&Kind, usize)| {
+        let of_leg = |(kind, of_all, leg): (&Kind, &Asked, usize)| {
             let scheme = Scheme { leg: Some(leg), ..Scheme::common(&[*kind]) };
-            Asked::new(scheme, measure(kind.is_direction()))
+            let about = of_all.refuted().and_then(BigRational::to_f64);
+            Asked { about, ..Asked::new(scheme, measure(kind.is_direction())) }
         };
-        let pairs = kinds.iter().flat_map(|kind| (0..legs).map(move |leg| (kind, leg)));
+        let pairs = kinds.iter().zip(&all);
+        let pairs = pairs.flat_map(|(kind, of_all)| (0..legs).map(move |leg| (kind, of_all, leg)));
         let mut by_leg: Vec<Asked> = pairs.map(of_leg).collect();
         let every: Vec<usize> = (0..by_leg.len()).collect();
-        self.search(bar, (&mut by_leg, &every), (self.budget, 0), |turns| turns)?;
+        let time = Time { budget: self.budget, after: 0, halves: false };
+        self.search(bar, (&mut by_leg, &every), time)?;
         // The leg that allows least first.
         for of_kind in by_leg.chunks_mut(legs.max(1)) {
             of_kind.sort_by_key(|asked| asked.certified().cloned().unwrap_or_default());
@@ -229,28 +256,27 @@ impl Question<'_> {
         }
     }
 
-    /// Searches for some of these, `after` which come so many more; whether more is certified than was. Each has its
-    /// share of the time that is left, which is in as many parts as `parts` makes of the turns in which all are done.
+    /// Searches for some of these. Whether of one a wider tolerance is certified than was before.
     fn search(
         &self,
         bar: &mut Bar,
         (all, which): (&mut [Asked], &[usize]),
-        (budget, after): (Budget, usize),
-        parts: impl Fn(usize) -> usize + Sync,
+        Time { budget, after, halves }: Time,
     ) -> Result<bool, Failure> {
         let names: Vec<String> = which.iter().map(|&at| words(&all[at].scheme)).collect();
         let own = &*all;
         let found: Vec<Result<_, Failure>> =
             bar.at_once(&names, after, |number, turns, control| {
-                let Asked { scheme, measure, known, .. } = &own[which[number]];
+                let Asked { scheme, measure, known, about, .. } = &own[which[number]];
                 if interrupt::is_cancelled() {
                     return Ok(None);
                 }
                 let own = self.each.and_then(|each| Instant::now().checked_add(each));
-                let shared = budget.shared(parts(turns)).deadline;
+                let shared = budget.shared(if halves { 2 } else { turns }).deadline;
                 let deadline = [shared, own].into_iter().flatten().min();
                 let budget = Budget { deadline, ..self.budget };
-                let found = widest(self.claim, scheme, self.width, known.clone(), budget, control)
+                let known = (known.clone(), *about);
+                let found = widest(self.claim, scheme, self.width, known, budget, control)
                     .map_err(|error| explain(error, self.design))?;
                 let row = row(scheme, *measure, &found, self.width, self.arguments)?;
                 Ok(Some((found, row)))

@@ -37,7 +37,7 @@ const SHARE: f64 = 0.25;
 /// steps from there on.
 const LAST: f64 = 0.1;
 const SHORT: f64 = 1.25;
-/// How often the worst places are looked for anew, of narrower and narrower tolerances.
+/// Most walks to a refuted tolerance, each from the worst places that are found where it begins.
 const ROUNDS: usize = 4;
 /// Parts of the refuted tolerance that are tried first where there is a deadline, or the best that can be hoped for is not proved,
 /// less one.
@@ -253,7 +253,8 @@ pub(crate) fn around(quantity: &Quantity, t: &BigRational) -> Option<Quantity> {
 
 /// Encloses the widest `t` for which the claim widened by `scheme` holds, to `gap`. Where the proofs that the
 /// search finds do not come so near to the refuted end, both are found to a part of `gap`. Where there is a
-/// deadline, a third of the time is for the refuted end. Ends that are `known` are gone on from.
+/// deadline, a third of the time is for the refuted end. Ends that are `known` are gone on from; else what is refuted is looked
+/// for about `start`, if it is given.
 ///
 /// # Errors
 /// If it was cancelled.
@@ -261,7 +262,7 @@ pub fn widest(
     claim: &MachineClaim,
     scheme: &Scheme,
     gap: f64,
-    known: Bracket,
+    (known, start): (Bracket, Option<f64>),
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Result<Bracket, NoAnswer> {
@@ -269,9 +270,9 @@ pub fn widest(
     let weight = scheme.weights.iter().filter_map(|(_, weight)| weight.to_f64());
     let scale = scale / weight.fold(f64::MIN_POSITIVE, f64::max);
     let walk = Walk {
-        start: START * scale,
+        start: start.unwrap_or(START * scale).clamp(LIMITS.0 * scale, LIMITS.1 * scale),
         succeeds: Succeeds::Above,
-        factor: 10.0,
+        factor: if start.is_some() { 2.0 } else { 10.0 },
         most: LARGEST_FACTOR,
         enough: None,
         limits: (LIMITS.0 * scale, LIMITS.1 * scale),
@@ -317,8 +318,8 @@ pub fn widest(
     Ok(Bracket { certified: certified.found.or(known.certified), refuted, out_of_time })
 }
 
-/// The narrowest tolerance found for which the claim is refuted: from where it is worst of the first that is, and, as others
-/// may be worse of narrower ones, from there too.
+/// The narrowest tolerance found for which the claim is refuted. Sampling finds one first; narrower ones are tried from the worst
+/// places that it found, which hardly move. Of narrower ones other places may be worse: just below the last, sampling begins anew.
 fn refuted(
     walk: &Walk,
     claim: impl Fn(&BigRational) -> Option<MachineClaim>,

@@ -17,7 +17,7 @@ pub fn point_text(point: &[f64], digits: u32) -> String {
 /// A pose as `(x, y, z) = (1, 2, 3), turned by 15 deg about (0, 0, 1)`: angles in degrees, from the half-angle
 /// tangents of coordinates named `tan(../2)` and `c_x`, `c_y`, `c_z`.
 pub fn pose_text(point: &[f64], coordinates: &Coordinates, digits: u32) -> String {
-    let names: Vec<&str> = positions(coordinates).collect();
+    let names = coordinates.positions();
     let mut parts = match names.is_empty() {
         true => Vec::new(),
         false => {
@@ -35,20 +35,9 @@ pub fn placed(place: &str) -> String {
     format!("{at}{place}")
 }
 
-/// The names of the coordinates that are lengths, or a user's own.
-pub fn positions(coordinates: &[String]) -> impl Iterator<Item = &str> {
-    let is_turn = |name: &&str| angle_of(name).is_some() || is_of_axis(name);
-    coordinates.iter().map(String::as_str).filter(move |name| !is_turn(name))
-}
-
 /// The angle whose half-angle tangent a coordinate is.
 pub fn angle_of(name: &str) -> Option<&str> {
     name.strip_prefix("tan(")?.strip_suffix("/2)")
-}
-
-/// Whether a coordinate is a component of `tan(theta/2)` along the axis of a rotation by `theta`.
-pub fn is_of_axis(name: &str) -> bool {
-    name.starts_with("c_")
 }
 
 /// The angle with this half-angle tangent.
@@ -59,14 +48,14 @@ pub fn in_degrees(half_angle_tangent: f64) -> f64 {
 /// How a pose is turned, in degrees; none where no coordinate says so.
 pub fn turn_text(point: &[f64], coordinates: &Coordinates, digits: u32) -> Option<String> {
     let number = |x: f64| significant(x, digits);
-    let angles = coordinates.iter().zip(point).filter_map(|(name, x)| {
+    let turns = point.get(coordinates.positions().len()..).unwrap_or_default();
+    let angles = coordinates.turns().iter().zip(turns).filter_map(|(name, x)| {
         Some(format!("{} = {} deg", angle_of(name)?, number(in_degrees(*x))))
     });
     let mut parts: Vec<String> = angles.collect();
-    let axes = coordinates.iter().zip(point).filter(|(name, _)| is_of_axis(name));
-    let axis: Vec<f64> = axes.map(|(_, x)| *x).collect();
+    let axis = if coordinates.are_of_axis() { turns } else { &[] };
     let length = axis.iter().map(|x| x * x).sum::<f64>().sqrt();
-    if let ([x, y, z], true) = (&axis[..], coordinates.by_tilt) {
+    if let ([x, y, z], true) = (axis, coordinates.by_tilt) {
         parts.push(tilt_text([*x, *y, *z], digits));
     } else if length > 0.0 {
         let unit: Vec<f64> = axis.iter().map(|x| x / length).collect();

@@ -1,10 +1,7 @@
 //! Reports for people: the verdict first, then the table, within 80 columns.
 
 use super::kernel::{DETERMINANT, RADICAND};
-use super::place::{
-    angle_of, in_degrees, is_of_axis, placed, point_text, pose_text, positions, turn_text,
-    FreeParameter,
-};
+use super::place::{angle_of, in_degrees, placed, point_text, pose_text, turn_text, FreeParameter};
 use super::{
     machine_of_witness, CertificateFile, Counterexample, EarlierFile, Margin, Outcome,
     PostulateReport, Remains, Report, Row, Size,
@@ -205,7 +202,7 @@ fn shown(rows: &[Row], verbose: bool) -> Vec<(String, &Row)> {
 /// The requirements and the worst values found.
 fn table(out: &mut String, report: &Report, verbose: bool) {
     let Report { requirements: rows, coordinates, length_unit: length, .. } = report;
-    let names: Vec<&str> = positions(coordinates).collect();
+    let names = coordinates.positions();
     let unit = length.filter(|_| !names.is_empty()).map(|unit| format!(", {unit}"));
     let place = match names.is_empty() {
         true => "at".to_owned(),
@@ -394,7 +391,7 @@ fn describe_remains(out: &mut String, remains: &Remains, coordinates: &Coordinat
         wrap(out, &text, 4);
         extent(out, &region.min, &region.max, coordinates);
     }
-    if coordinates.iter().any(|name| is_of_axis(name)) {
+    if coordinates.are_of_axis() {
         let text = "c_x, c_y, c_z: of a turn by theta, tan(theta/2) times its axis";
         wrap(out, text, 4);
     }
@@ -428,7 +425,7 @@ fn extent(out: &mut String, min: &[f64], max: &[f64], coordinates: &Coordinates)
         let (min, max) = apart.unwrap_or_else(|| ends(PLACE_DIGITS));
         let _ = writeln!(out, "      {name}  {min} .. {max}");
     }
-    if coordinates.iter().any(|name| is_of_axis(name)) {
+    if coordinates.are_of_axis() {
         let middle: Vec<f64> = min.iter().zip(max).map(|(min, max)| (min + max) / 2.0).collect();
         if let Some(turn) = turn_text(&middle, coordinates, AXIS_DIGITS) {
             let _ = writeln!(out, "      its middle: {turn}");

@@ -1,6 +1,6 @@
 //! Several searches at once, where a question has several answers.
 
-use super::{Control, Progress};
+use super::{Control, Counted, Progress};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, OnceLock, PoisonError};
 use std::thread;
@@ -8,44 +8,46 @@ use std::thread;
 /// Bytes of a thread's stack: as many as the first thread mostly has.
 const STACK: usize = 8 << 20;
 
-/// What became of so many tasks that do not depend on each other, of which as many are done at once as there are
-/// threads, begun in their order; `after` them come so many more. `work` is told a task's number, and in how many
-/// turns it, those that are not begun and those after them are done: for its share of the time. Once cancelled, each
-/// task that is left is begun, to say so.
+/// How many of so many tasks are done at once: one on each thread, and on each core.
+fn workers(tasks: usize) -> usize {
+    let cores = thread::available_parallelism().map_or(1, usize::from);
+    tasks.min(rayon::current_num_threads()).min(cores)
+}
+
+/// What becomes of tasks that do not depend on each other, in their order. As many are done at once as there are threads and
+/// cores; what a task gives to the pool of threads may wait for what another did.
+///
+/// `work` is told a task's number, and how many turns there are from its own on, so that each may have its share of the time:
+/// a turn is as many tasks as are done at once, first of these, then of the `after` that come after them. Once cancelled, the
+/// tasks that are left are begun, too, to say so.
 pub fn at_once<T: Send + Sync>(
     tasks: usize,
     after: usize,
     control: &mut Control<'_>,
     work: impl Fn(usize, usize, &mut Control<'_>) -> T + Sync,
 ) -> Vec<T> {
-    let threads = rayon::current_num_threads().min(tasks);
+    let threads = workers(tasks);
+    let turns_after = after.div_ceil(workers(after).max(1));
     let done: Vec<OnceLock<T>> = (0..tasks).map(|_| OnceLock::new()).collect();
     let next = AtomicUsize::new(0);
     let cancel = control.cancel;
-    let begun =
-        Mutex::new((vec![Progress { boxes: 0, share: 0.0 }; tasks], &mut *control.progress));
-    let worker = || {
-        loop {
-            let number = next.fetch_add(1, Ordering::Relaxed);
-            let Some(slot) = done.get(number) else { return };
-            let turns = (tasks - number + after).div_ceil(threads);
-            // Boxes of the searches of this task that ended.
-            let mut ended = (0, 0);
-            let mut note = |now: Progress| {
-                if now.boxes < ended.1 {
-                    ended.0 += ended.1;
-                }
-                ended.1 = now.boxes;
-                let (all, whole) = &mut *begun.lock().unwrap_or_else(PoisonError::into_inner);
-                all[number] = Progress { boxes: ended.0 + ended.1, ..now };
-                let share = all.iter().map(|one| one.share).sum::<f64>() / tasks as f64;
-                whole(Progress { boxes: all.iter().map(|one| one.boxes).sum(), share });
-            };
-            let control = &mut Control { cancel, progress: &mut note };
-            let found = control.part([0.0, 1.0], |control| work(number, turns, control));
-            // Each number is taken once.
-            let _ = slot.set(found);
-        }
+    let nothing = Progress { boxes: 0, share: 0.0 };
+    let all = Mutex::new((vec![nothing; tasks], &mut *control.progress));
+    let worker = || loop {
+        let number = next.fetch_add(1, Ordering::Relaxed);
+        let Some(slot) = done.get(number) else { return };
+        let turns = (tasks - number).div_ceil(threads) + turns_after;
+        let mut counted = Counted::default();
+        let mut note = |now: Progress| {
+            let (all, whole) = &mut *all.lock().unwrap_or_else(PoisonError::into_inner);
+            all[number] = Progress { boxes: counted.with(now.boxes), ..now };
+            let share = all.iter().map(|one| one.share).sum::<f64>() / tasks as f64;
+            whole(Progress { boxes: all.iter().map(|one| one.boxes).sum(), share });
+        };
+        let control = &mut Control { cancel, progress: &mut note };
+        let found = control.part([0.0, 1.0], |control| work(number, turns, control));
+        // Each number is taken once.
+        let _ = slot.set(found);
     };
     thread::scope(|scope| {
         for _ in 1..threads {
@@ -71,27 +73,48 @@ mod tests {
     #[test]
     fn tasks_are_done_at_once_and_told_in_their_order() {
         let cancel = AtomicBool::new(false);
-        for threads in [1, 3] {
+        for threads in [1, 2] {
             let mut seen = Vec::new();
             let mut note = |now: Progress| seen.push((now.boxes, now.share));
-            // Three tasks that wait for each other end where there are three threads.
-            let together = Barrier::new(threads);
             let found = on(threads, || {
+                // Tasks that wait for each other end where so many are done at once.
+                let together = Barrier::new(workers(6));
                 let control = &mut Control { cancel: &cancel, progress: &mut note };
-                at_once(6, 2, control, |number, turns, control| {
+                at_once(6, 2, control, |number, _, control| {
                     together.wait();
                     for boxes in [4, 7, 2] {
                         (control.progress)(Progress { boxes, share: 0.5 });
                     }
-                    (number, turns)
+                    number
                 })
             });
-            let turns = |number: usize| (8 - number).div_ceil(threads);
-            let expected: Vec<_> = (0..6).map(|number| (number, turns(number))).collect();
-            assert_eq!(found, expected, "{threads} threads");
+            assert_eq!(found, [0, 1, 2, 3, 4, 5], "{threads} threads");
             assert!(seen.is_sorted_by(|a, b| a.1 <= b.1), "{seen:?}");
             assert_eq!(seen.last().map(|last| last.1), Some(1.0));
             assert_eq!(seen.iter().map(|one| one.0).max(), Some(6 * (7 + 2)));
+        }
+    }
+
+    /// Every task has time, and so have those after the last, however many are done at once.
+    #[test]
+    fn turns_are_those_that_are_left() {
+        let cancel = AtomicBool::new(false);
+        let turns = |threads: usize, tasks, after| {
+            let control = &mut Control { cancel: &cancel, progress: &mut |_| {} };
+            on(threads, || at_once(tasks, after, control, |_, turns, _| turns))
+        };
+        assert_eq!(turns(1, 4, 2), [6, 5, 4, 3]);
+        assert_eq!(turns(1, 1, 0), [1]);
+        assert_eq!(turns(3, 0, 2).len(), 0);
+        for threads in 1..5 {
+            for (tasks, after) in [(1, 1), (2, 1), (5, 3), (4, 0)] {
+                let turns = turns(threads, tasks, after);
+                assert!(turns.is_sorted_by(|a, b| a >= b), "{turns:?}");
+                assert_eq!(
+                    *turns.last().unwrap(),
+                    1 + after.div_ceil(on(threads, || workers(after)).max(1))
+                );
+            }
         }
     }
 }

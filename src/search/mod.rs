@@ -62,6 +62,24 @@ pub struct Progress {
     pub share: f64,
 }
 
+/// Boxes of searches after each other, of which the last begins where fewer are told than before.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Counted {
+    ended: usize,
+    last: usize,
+}
+
+impl Counted {
+    /// Those of all, with so many of the last.
+    pub fn with(&mut self, boxes: usize) -> usize {
+        if boxes < self.last {
+            self.ended += self.last;
+        }
+        self.last = boxes;
+        self.ended + boxes
+    }
+}
+
 /// The outside's hold on a search.
 pub struct Control<'a> {
     /// Set to make the search end with [`Stop::Cancelled`].

@@ -174,9 +174,9 @@ impl Entry {
     pub fn remark_beside_name(&self) -> String {
         let remark = self.remark();
         let name = format!("{}:", Shown(&self.design));
-        match remark.strip_prefix(&name).map(str::trim_start) {
+        match remark.strip_prefix(&name) {
             Some(rest) if rest.starts_with(|c: char| c.is_ascii_digit()) => format!("line {rest}"),
-            Some(rest) => rest.to_owned(),
+            Some(rest) => rest.trim_start().to_owned(),
             None => remark,
         }
     }

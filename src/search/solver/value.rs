@@ -118,14 +118,37 @@ pub fn in_length(name: &str, unit: Option<&str>, length: Option<&str>) -> String
 /// What an accuracy is of where it is not the position's.
 pub const OF_ANGLE: &str = "accuracy of the angle";
 
+/// The names of coordinates that are `tan(theta/2)` times the axis of a rotation by `theta`.
+const AXIS: [&str; 3] = ["c_x", "c_y", "c_z"];
+
 /// The names of the coordinates of poses.
 #[derive(Clone, Debug, Default, Serialize)]
 #[serde(transparent)]
 pub struct Coordinates {
     names: Vec<String>,
+    /// How many are of no orientation: before the others.
+    #[serde(skip)]
+    positions: usize,
     /// Whether orientations are told by their tilt and torsion.
     #[serde(skip)]
     pub by_tilt: bool,
+}
+
+impl Coordinates {
+    /// Those that are lengths, or a user's own.
+    pub fn positions(&self) -> &[String] {
+        &self.names[..self.positions]
+    }
+
+    /// Those of orientation.
+    pub fn turns(&self) -> &[String] {
+        &self.names[self.positions..]
+    }
+
+    /// Whether these are the components of `tan(theta/2)` along the axis of a rotation by `theta`.
+    pub fn are_of_axis(&self) -> bool {
+        self.turns().first().is_some_and(|name| name == AXIS[0])
+    }
 }
 
 impl std::ops::Deref for Coordinates {
@@ -140,10 +163,12 @@ impl std::ops::Deref for Coordinates {
 /// axis or as the vector `tan(theta/2)` along the axis of the rotation.
 pub fn coordinates(claim: &MachineClaim) -> Coordinates {
     let by_tilt = matches!(claim.orientation, Some(Orientation::Tilt { .. }));
-    let of = |names| Coordinates { names, by_tilt };
     let in_plane = matches!(claim.mechanism, Mechanism::Planar(_));
     let m = match (&claim.mechanism, &claim.workspace) {
-        (Mechanism::Formulas(formulas), _) => return of(formulas.coordinates.clone()),
+        (Mechanism::Formulas(formulas), _) => {
+            let names = formulas.coordinates.clone();
+            return Coordinates { positions: names.len(), names, by_tilt };
+        }
         (_, Workspace::Box { min, .. }) => min.len(),
         (_, Workspace::Cylinder { .. } | Workspace::Cube { .. }) => 3,
     };
@@ -151,10 +176,11 @@ pub fn coordinates(claim: &MachineClaim) -> Coordinates {
         None => &[],
         Some(Orientation::Range(_)) => &["tan(phi/2)"],
         Some(Orientation::RollPitchYaw { .. }) => &["tan(roll/2)", "tan(pitch/2)", "tan(yaw/2)"],
-        Some(Orientation::Angle(_) | Orientation::Tilt { .. }) => &["c_x", "c_y", "c_z"],
+        Some(Orientation::Angle(_) | Orientation::Tilt { .. }) => &AXIS,
     };
-    let places = ["x", "y", "z"].into_iter().take(if in_plane { m.min(2) } else { m });
-    of(places.chain(turns.iter().copied()).map(str::to_owned).collect())
+    let places = &["x", "y", "z"][..if in_plane { m.min(2) } else { m.min(3) }];
+    let names = [places, turns].concat().into_iter().map(str::to_owned).collect();
+    Coordinates { names, positions: places.len(), by_tilt }
 }
 
 impl Bounded {

@@ -373,7 +373,7 @@ fn a_known_tolerance_is_improved() {
     let mut control = Control { cancel: &cancel, progress: &mut |_| {} };
     let mut found = |gap, known, deadline| {
         let budget = Budget { max_boxes: 2_000, deadline };
-        widest(&claim, &scheme, gap, known, budget, &mut control).expect("an answer")
+        widest(&claim, &scheme, gap, (known, None), budget, &mut control).expect("an answer")
     };
     let none = found(0.01, Bracket::default(), Some(std::time::Instant::now()));
     assert!(none.out_of_time && none.certified.is_none());
