@@ -212,12 +212,22 @@ pub struct Approach {
     pub far: (f64, f64),
     /// A distance at which it is known to succeed: less is tried.
     pub known: Option<f64>,
+    /// Down to this distance, while tests succeed, each is a third of the one before.
+    pub by_thirds: f64,
 }
 
 impl Approach {
     /// From a tenth of the value.
     pub fn from_afar(to: f64, succeeds: Succeeds, near: f64) -> Self {
-        Approach { to, succeeds, near, first: near.max(FAR), far: (0.0, SPREAD), known: None }
+        Approach {
+            to,
+            succeeds,
+            near,
+            first: near.max(FAR),
+            far: (0.0, SPREAD),
+            known: None,
+            by_thirds: 1.0,
+        }
     }
 
     /// The value at a distance.
@@ -242,7 +252,9 @@ impl Approach {
     fn next(&self, success: Option<f64>, failure: Option<f64>) -> Option<f64> {
         match (success, failure) {
             (None, None) => Some(self.first),
-            (Some(far), None) if far > 1.0 => Some(far / FARTHER),
+            (Some(far), None) if far > self.by_thirds.max(self.near) => {
+                Some((far / FARTHER).max(self.near))
+            }
             (Some(far), None) => (far > self.near).then(|| (far * far.min(FAR)).max(self.near)),
             (Some(far), Some(near)) => {
                 let is_near = far <= near * NEXT.0 && 1.0 + far <= (1.0 + near) * NEXT.1;
@@ -561,6 +573,25 @@ mod tests {
             let near = |(tried, expected): (&f64, &f64)| (tried / expected - 1.0).abs() < 0.03;
             let same = tried.len() == expected.len() && tried.iter().zip(expected).all(near);
             assert!(same, "{least} {known:?}: {tried:?}");
+        }
+    }
+
+    /// Where time is short no step is a great one.
+    #[test]
+    fn an_approach_by_thirds_comes_as_near() {
+        for (near, expected) in
+            [(0.0075, &[0.306, 0.0957, 0.00916, 0.0075][..]), (0.375, &[0.375]), (1.0, &[])]
+        {
+            let to = Approach::from_afar(1.0, Succeeds::Below, near);
+            let to = Approach { known: Some(0.98), by_thirds: 0.1, ..to };
+            let mut tried = Vec::new();
+            approached(&to, ENDLESS, |distance| {
+                tried.push(distance);
+                Ok(true)
+            });
+            let near = |(tried, expected): (&f64, &f64)| (tried / expected - 1.0).abs() < 0.03;
+            let same = tried.len() == expected.len() && tried.iter().zip(expected).all(near);
+            assert!(same, "{tried:?}");
         }
     }
 

@@ -42,6 +42,9 @@ const ROUNDS: usize = 4;
 /// Parts of the refuted tolerance that are tried first where there is a deadline, or the best that can be hoped for is not proved,
 /// less one.
 const FAR: (f64, f64) = (10.0, 1e6);
+/// Where there is a deadline, the distance down to which each is a third of the one before: a greater step mostly costs half of the
+/// time that is left, for nothing.
+const BY_THIRDS: f64 = 0.1;
 
 /// A kind of parameter, which all legs that have it share.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -307,10 +310,12 @@ pub fn widest(
     });
     // The best that can be hoped for, first; what is not proved may take all of the time there is, then from afar.
     let near = gap * (1.0 - SHARE);
-    let first = if budget.deadline.is_some() { FAR.0 } else { near };
+    let (first, by_thirds) =
+        if budget.deadline.is_some() { (FAR.0, BY_THIRDS) } else { (near, 1.0) };
     let end = refuted.as_ref().and_then(|(t, _)| t.to_f64());
     let to = end.unwrap_or(LAST * scale);
-    let to = Approach { first, far: FAR, ..Approach::from_afar(to, Succeeds::Below, near) };
+    let to =
+        Approach { first, far: FAR, by_thirds, ..Approach::from_afar(to, Succeeds::Below, near) };
     let to = Approach { known: known.certified.as_ref().and_then(|(t, _)| to.distance(t)), ..to };
     let certified = control
         .part([0.6, 1.0], |control| certified(claim, scheme, (&to, point), budget, control))?;
