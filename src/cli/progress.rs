@@ -4,7 +4,7 @@
 use super::interrupt;
 use crate::exact::decimal::grouped;
 use crate::report::text::duration;
-use crate::search::{at_once, Control, Counted, Progress, Steps};
+use crate::search::{at_once, turns, Control, Counted, Progress, Steps};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::collections::BTreeSet;
 use std::fmt;
@@ -76,7 +76,8 @@ impl Bar {
         after: usize,
         work: impl Fn(usize, usize, &mut Control<'_>) -> T + Sync,
     ) -> Vec<T> {
-        let part = self.steps.take(names.len(), names.len() + after);
+        let own = turns(names.len());
+        let part = self.steps.take(own, own + after);
         let under_way = Mutex::new(BTreeSet::new());
         let under_way = || under_way.lock().unwrap_or_else(PoisonError::into_inner);
         let mut show = |now| {

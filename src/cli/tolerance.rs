@@ -13,7 +13,7 @@ use crate::questions::tolerance::{legs_of, squares, widest, Kind, Scheme, ROOT_B
 use crate::report::text::{duration, wrap, WIDTH};
 use crate::report::{counterexample, CertificateFile, Counterexample};
 use crate::search::solver::{proof, refutation};
-use crate::search::Budget;
+use crate::search::{turns, Budget};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 use orthocert_checker::certificate::{Proof, Verdict};
@@ -44,8 +44,8 @@ pub struct Arguments {
     /// Relative distance of the certified and the refuted tolerance to stop at
     #[arg(long, value_name = "WIDTH", default_value = "0.1", allow_hyphen_values = true)]
     gap: String,
-    /// Time for each row of the answer, by the clock, though as many are searched at once as there are threads and cores
-    /// [default: no limit]: seconds, or a number with ms, s, min or h
+    /// Time for each row of the answer, by the clock; rows that are searched side by side share the cores [default: no
+    /// limit]: seconds, or a number with ms, s, min or h
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     each: Option<String>,
     /// Widen the parameters of one leg at a time, too, and rank the legs
@@ -162,7 +162,7 @@ struct Question<'a> {
 /// The time of rows that are searched for at once.
 struct Time {
     budget: Budget,
-    /// So many more rows come after them.
+    /// The turns after them.
     after: usize,
     /// Each has half of what is left, in place of its share.
     halves: bool,
@@ -199,15 +199,16 @@ impl Question<'_> {
     /// The rows; interrupted, those that were begun.
     fn rows(&self, kinds: &[Kind], legs: usize) -> Result<Vec<Row>, Failure> {
         let bar = &mut self.arguments.effort.bar();
-        let of_legs = kinds.len() * legs;
-        let after = usize::from(mixed(kinds)) + of_legs;
+        let of_legs = turns(kinds.len() * legs);
+        let after = turns(usize::from(mixed(kinds))) + of_legs;
         let mut all = schemes(kinds);
         let every: Vec<usize> = (0..all.len()).collect();
         let time = self.budget.deadline.map(|end| end.saturating_duration_since(Instant::now()));
         self.search(bar, (&mut all, &every), Time { budget: self.budget, after, halves: false })?;
         // What time the others left, but for that of those after them, is for those whose time was up, first for those of
         // which least is known: half of what is left each, for what is not proved in as much as before wants more.
-        let of_rest = time.map(|time| time.mul_f64(after as f64 / (all.len() + after) as f64));
+        let own = turns(all.len());
+        let of_rest = time.map(|time| time.mul_f64(after as f64 / (own + after) as f64));
         let deadline =
             self.budget.deadline.zip(of_rest).and_then(|(end, rest)| end.checked_sub(rest));
         let budget = Budget { deadline, ..self.budget };

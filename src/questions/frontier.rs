@@ -275,7 +275,7 @@ pub struct Approached<T> {
 }
 
 /// The nearest value found at which `test` succeeds: while it does, at distances of a tenth, a square of it
-/// and so on; past the first that fails, between, from the side that succeeds. A test has half of the time that is left, and a
+/// and so on, down to [`Approach::by_thirds`] by thirds; past the first that fails, between, from the side that succeeds. A test has half of the time that is left, and a
 /// quarter where one failed and none succeeded: what is far costs little, and what fails costs most. Cancelled, it
 /// has what was found before.
 ///
@@ -305,7 +305,7 @@ pub fn approach<T>(
             Some(found) => (best, success) = (Some((value, found)), Some(distance)),
             None => {
                 failure = Some(distance);
-                // What is nearer fails too, whatever the time.
+                // What is nearer is expected to fail, too, whatever the time.
                 out_of_time = own.is_over();
             }
         }

@@ -39,11 +39,11 @@ const LAST: f64 = 0.1;
 const SHORT: f64 = 1.25;
 /// Most walks to a refuted tolerance, each from the worst places that are found where it begins.
 const ROUNDS: usize = 4;
-/// Parts of the refuted tolerance that are tried first where there is a deadline, or the best that can be hoped for is not proved,
-/// less one.
+/// Parts of the refuted tolerance that are tried first where there is a deadline, or the best that can be hoped for
+/// is not proved, less one.
 const FAR: (f64, f64) = (10.0, 1e6);
-/// Where there is a deadline, the distance down to which each is a third of the one before: a greater step mostly costs half of the
-/// time that is left, for nothing.
+/// Where there is a deadline, the distance down to which each is a third of the one before: a greater step mostly
+/// costs half of the time that is left, for nothing.
 const BY_THIRDS: f64 = 0.1;
 
 /// A kind of parameter, which all legs that have it share.
@@ -290,9 +290,7 @@ pub fn widest(
     let begun = match known.refuted {
         None => control.part([0.0, 0.4], |control| refute(&walk, control))?,
         Some(known) => {
-            let t = known.0.to_f64().unwrap_or(walk.limits.1);
-            let nearer =
-                Walk { start: t / SHORT, limits: (walk.limits.0, t), factor: SHORT, ..walk };
+            let nearer = below(&walk, known.0.to_f64().unwrap_or(walk.limits.1));
             control.part([0.0, 0.4], |control| refute(&nearer, control))?.or(Some(known))
         }
     };
@@ -323,8 +321,15 @@ pub fn widest(
     Ok(Bracket { certified: certified.found.or(known.certified), refuted, out_of_time })
 }
 
-/// The narrowest tolerance found for which the claim is refuted. Sampling finds one first; narrower ones are tried from the worst
-/// places that it found, which hardly move. Of narrower ones other places may be worse: just below the last, sampling begins anew.
+/// From just below a tolerance that is refuted.
+fn below(walk: &Walk, t: f64) -> Walk {
+    let factor = 1.0 + walk.gap;
+    Walk { start: t / factor, limits: (walk.limits.0, t / factor), factor, ..*walk }
+}
+
+/// The narrowest tolerance found for which the claim is refuted. Sampling finds one first. Narrower ones are tried
+/// from the worst places found, which hardly move. As others may be worse of narrower ones, sampling begins anew just
+/// below the last.
 fn refuted(
     walk: &Walk,
     claim: impl Fn(&BigRational) -> Option<MachineClaim>,
@@ -346,9 +351,7 @@ fn refuted(
         })?;
         let Some(least) = next.as_ref().and_then(|(t, _)| t.to_f64()) else { break };
         found = next;
-        let factor = 1.0 + walk.gap;
-        walk =
-            Walk { start: least / factor, limits: (walk.limits.0, least / factor), factor, ..walk };
+        walk = below(&walk, least);
     }
     Ok(found)
 }

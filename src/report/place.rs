@@ -15,7 +15,7 @@ pub fn point_text(point: &[f64], digits: u32) -> String {
 }
 
 /// A pose as `(x, y, z) = (1, 2, 3), turned by 15 deg about (0, 0, 1)`: angles in degrees, from the half-angle
-/// tangents of coordinates named `tan(../2)` and `c_x`, `c_y`, `c_z`.
+/// tangents of the coordinates of orientation.
 pub fn pose_text(point: &[f64], coordinates: &Coordinates, digits: u32) -> String {
     let names = coordinates.positions();
     let mut parts = match names.is_empty() {

@@ -8,18 +8,22 @@ use std::thread;
 /// Bytes of a thread's stack: as many as the first thread mostly has.
 const STACK: usize = 8 << 20;
 
-/// How many of so many tasks are done at once: one on each thread, and on each core.
+/// How many of so many tasks are done at once: one for each thread, but no more than cores.
 fn workers(tasks: usize) -> usize {
     let cores = thread::available_parallelism().map_or(1, usize::from);
     tasks.min(rayon::current_num_threads()).min(cores)
 }
 
-/// What becomes of tasks that do not depend on each other, in their order. As many are done at once as there are threads and
-/// cores; what a task gives to the pool of threads may wait for what another did.
+/// In how many turns so many tasks are done.
+pub fn turns(tasks: usize) -> usize {
+    tasks.div_ceil(workers(tasks).max(1))
+}
+
+/// What becomes of tasks that do not depend on each other, in their order: of as many at once as there are threads, but
+/// no more than cores. What a task gives to the pool of threads may wait for what another did.
 ///
-/// `work` is told a task's number, and how many turns there are from its own on, so that each may have its share of the time:
-/// a turn is as many tasks as are done at once, first of these, then of the `after` that come after them. Once cancelled, the
-/// tasks that are left are begun, too, to say so.
+/// `work` is told a task's number, and how many turns are left, its own among them and the `after` that come after these
+/// tasks: its share of the time is one of them. Once cancelled, the tasks that are left are begun, too, to say so.
 pub fn at_once<T: Send + Sync>(
     tasks: usize,
     after: usize,
@@ -27,7 +31,6 @@ pub fn at_once<T: Send + Sync>(
     work: impl Fn(usize, usize, &mut Control<'_>) -> T + Sync,
 ) -> Vec<T> {
     let threads = workers(tasks);
-    let turns_after = after.div_ceil(workers(after).max(1));
     let done: Vec<OnceLock<T>> = (0..tasks).map(|_| OnceLock::new()).collect();
     let next = AtomicUsize::new(0);
     let cancel = control.cancel;
@@ -36,7 +39,7 @@ pub fn at_once<T: Send + Sync>(
     let worker = || loop {
         let number = next.fetch_add(1, Ordering::Relaxed);
         let Some(slot) = done.get(number) else { return };
-        let turns = (tasks - number).div_ceil(threads) + turns_after;
+        let turns = (tasks - number).div_ceil(threads) + after;
         let mut counted = Counted::default();
         let mut note = |now: Progress| {
             let (all, whole) = &mut *all.lock().unwrap_or_else(PoisonError::into_inner);
@@ -95,25 +98,22 @@ mod tests {
         }
     }
 
-    /// Every task has time, and so have those after the last, however many are done at once.
+    /// Every task has its share of the time, and so have the turns after the last.
     #[test]
     fn turns_are_those_that_are_left() {
         let cancel = AtomicBool::new(false);
-        let turns = |threads: usize, tasks, after| {
+        let left = |threads: usize, tasks, after| {
             let control = &mut Control { cancel: &cancel, progress: &mut |_| {} };
             on(threads, || at_once(tasks, after, control, |_, turns, _| turns))
         };
-        assert_eq!(turns(1, 4, 2), [6, 5, 4, 3]);
-        assert_eq!(turns(1, 1, 0), [1]);
-        assert_eq!(turns(3, 0, 2).len(), 0);
+        assert_eq!(left(1, 4, 2), [6, 5, 4, 3]);
+        assert_eq!(left(3, 0, 2).len(), 0);
         for threads in 1..5 {
             for (tasks, after) in [(1, 1), (2, 1), (5, 3), (4, 0)] {
-                let turns = turns(threads, tasks, after);
-                assert!(turns.is_sorted_by(|a, b| a >= b), "{turns:?}");
-                assert_eq!(
-                    *turns.last().unwrap(),
-                    1 + after.div_ceil(on(threads, || workers(after)).max(1))
-                );
+                let left = left(threads, tasks, after);
+                assert!(left.is_sorted_by(|a, b| a >= b), "{left:?}");
+                let first = on(threads, || turns(tasks)) + after;
+                assert_eq!((left[0], left[tasks - 1]), (first, 1 + after), "{threads} threads");
             }
         }
     }

@@ -3,7 +3,7 @@
 //! | module       | does                                                                  |
 //! |--------------|-----------------------------------------------------------------------|
 //! | [`accepted`] | accepted certificates, and the size of their proofs                   |
-//! | `at_once`    | searches for several answers, as many at once as there are threads    |
+//! | `at_once`    | searches for several answers, side by side                            |
 //! | [`paving`]   | the region of a box where a claim holds, from within and from without |
 //! | [`solver`]   | decides claims about machines of every kind; encloses extremes        |
 
@@ -12,7 +12,7 @@ mod at_once;
 pub mod paving;
 pub mod solver;
 
-pub use at_once::at_once;
+pub use at_once::{at_once, turns};
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;

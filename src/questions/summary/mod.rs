@@ -32,7 +32,7 @@ use crate::search::solver::enclose::{enclose, is_singular, reached, Enclosed, No
 use crate::search::solver::extremes::Extreme;
 use crate::search::solver::value::{Bounded, Coordinates};
 use crate::search::solver::{sector, Verification};
-use crate::search::{at_once, Budget, Control, Steps};
+use crate::search::{at_once, turns, Budget, Control, Steps};
 use asked::{asked, Asked};
 use num_rational::BigRational;
 use orthocert_checker::certificate::Verdict;
@@ -157,7 +157,7 @@ pub fn summary(
     let mut steps = Steps::default();
     let (all, left_out) = asked(claim, &problem, question);
     let shares = shares::deviations(claim);
-    let left = 1 + all.len() + shares;
+    let left = 1 + turns(all.len()) + turns(shares);
     let singular = match certified {
         true => Ok(false),
         false => steps.next(control, left, |control| is_singular(claim, budget, control)),
@@ -186,9 +186,10 @@ pub fn summary(
         }
         asked => ends(claim, asked, certified, &question.gap, budget, control),
     };
-    let part = steps.take(all.len(), all.len() + shares);
+    let (own, after) = (turns(all.len()), turns(shares));
+    let part = steps.take(own, own + after);
     let ends = control.part(part, |control| {
-        at_once(all.len(), shares, control, |number, turns, control| {
+        at_once(all.len(), after, control, |number, turns, control| {
             let ends = find(&all[number], budget.shared(turns), control);
             match certified {
                 true => tightened(claim, &all[number], ends, &question.gap),

@@ -11,6 +11,7 @@ use super::shape::shape;
 use super::subdivision::{pairs, Root, Subdivision};
 use crate::exact::decimal::{exact, significant};
 use crate::report::exactly;
+use crate::report::place::angle_of;
 use crate::report::text::machine;
 use crate::report::{placed, pose_text};
 use crate::search::solver::approximate;
@@ -417,16 +418,15 @@ struct Function<'a> {
 /// Names of the coordinates for people: of orientations angles in degrees, about an axis each twice the
 /// arc tangent of the chart's coordinate.
 fn axes(claim: &MachineClaim) -> Vec<String> {
-    let one = |name: String| match name.as_str() {
-        "c_x" => "about x, deg".to_owned(),
-        "c_y" => "about y, deg".to_owned(),
-        "c_z" => "about z, deg".to_owned(),
-        other => match other.strip_prefix("tan(").and_then(|rest| rest.strip_suffix("/2)")) {
-            Some(angle) => format!("{angle}, deg"),
-            None => name,
-        },
+    let one = |name: &String| match (name.as_str(), angle_of(name)) {
+        ("c_x", _) => "about x, deg".to_owned(),
+        ("c_y", _) => "about y, deg".to_owned(),
+        ("c_z", _) => "about z, deg".to_owned(),
+        (_, Some(angle)) => format!("{angle}, deg"),
+        (other, None) => other.to_owned(),
     };
-    coordinates(claim).iter().cloned().map(one).collect()
+    let all = coordinates(claim);
+    all.positions().iter().cloned().chain(all.turns().iter().map(one)).collect()
 }
 
 /// The counterexample in a table: names and values.

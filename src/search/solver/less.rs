@@ -84,7 +84,8 @@ impl<'a> Left<'a> {
         *self.known[k].get_or_init(|| (self.margin)(self.points[k]))
     }
 
-    /// The first multiple of `g` with which a test holds, if there is one; `None` where it is not known what the test leaves.
+    /// The first multiple of `g` with which a test holds, if there is one; `None` where it is not known what the test leaves
+    /// at the points looked at first.
     fn first_with<T>(
         &self,
         g: &[f64],
