@@ -18,8 +18,8 @@ use std::time::Instant;
 /// The certificate of the built-in prototype, in the current folder.
 const PROTOTYPE: &str = "orthoglide-prototype.cert.json";
 
-/// Most boxes of a proof that leaves time for margins: of one machine, and of those of a tolerance by what they differ by, of which
-/// each takes longer.
+/// Most boxes of a proof that leaves time for margins: of one machine, and of those of a tolerance by what they differ
+/// by, of which each takes longer.
 const SHORT_PROOF: [usize; 2] = [200, 50];
 
 /// Its flags.
