@@ -13,12 +13,11 @@ use crate::report::escape;
 use crate::report::requirement::{requirements, Known};
 use crate::report::Report;
 use crate::search::solver;
-use crate::search::{Budget, Control, Progress};
+use crate::search::{cores, Budget, Control, Progress};
 use orthocert_checker::certificate::Verdict;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::thread;
 use std::time::Instant;
 
 /// The flags of a batch.
@@ -78,7 +77,7 @@ impl Flags {
 pub fn workers(jobs: Option<u64>) -> usize {
     match jobs {
         Some(jobs) => usize::try_from(jobs).unwrap_or(1),
-        None => thread::available_parallelism().map_or(1, usize::from),
+        None => cores(),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::{input, Failure, Format};
 use crate::cli::progress::Bar;
-use crate::search::{Budget, Control};
+use crate::search::{cores, Budget, Control};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive};
@@ -108,8 +108,8 @@ pub fn start_threads(threads: Option<u64>) -> Result<(), Failure> {
     let Some(threads) = threads else {
         return Ok(());
     };
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let threads = usize::try_from(threads).unwrap_or(1).min(cores.saturating_mul(MOST_OF_A_CORE));
+    let most = cores().saturating_mul(MOST_OF_A_CORE);
+    let threads = usize::try_from(threads).unwrap_or(1).min(most);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
     pool.build_global()
         .map_err(|error| Failure::Output(format!("{threads} threads cannot be started: {error}")))

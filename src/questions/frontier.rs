@@ -275,9 +275,9 @@ pub struct Approached<T> {
 }
 
 /// The nearest value found at which `test` succeeds: while it does, at distances of a tenth, a square of it
-/// and so on, down to [`Approach::by_thirds`] by thirds; past the first that fails, between, from the side that succeeds. A test has half of the time that is left, and a
-/// quarter where one failed and none succeeded: what is far costs little, and what fails costs most. Cancelled, it
-/// has what was found before.
+/// and so on, those above [`Approach::by_thirds`] by thirds; past the first that fails, between, from the side that
+/// succeeds. A test has half of the time that is left, and a quarter where one failed and none succeeded: what is far
+/// costs little, and what fails costs most. Cancelled, it has what was found before.
 ///
 /// # Errors
 /// Those of `test`.

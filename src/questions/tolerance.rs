@@ -342,7 +342,7 @@ fn refuted(
             unless_cancelled(control, ())?;
             let Some(claim) = claim(t) else { return Ok(None) };
             Ok(match &known {
-                Some(worst) => solver::refutation_from(&claim, worst).and_then(|(found, _)| found),
+                Some(worst) => solver::refutation_from(&claim, worst),
                 None => solver::refutation_and_worst(&claim).and_then(|(found, worst)| {
                     known = found.is_some().then_some(worst);
                     found

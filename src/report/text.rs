@@ -21,7 +21,7 @@ const VALUE_DIGITS: u32 = 9;
 /// Significant digits of places.
 const PLACE_DIGITS: u32 = 6;
 /// Significant digits of how the middle of a box is turned.
-const AXIS_DIGITS: u32 = 4;
+const TURN_DIGITS: u32 = 4;
 /// Longest exact coordinate that stands on a line with others.
 const SHORT_COORDINATE: usize = 20;
 
@@ -427,7 +427,7 @@ fn extent(out: &mut String, min: &[f64], max: &[f64], coordinates: &Coordinates)
     }
     if coordinates.are_of_axis() {
         let middle: Vec<f64> = min.iter().zip(max).map(|(min, max)| (min + max) / 2.0).collect();
-        if let Some(turn) = turn_text(&middle, coordinates, AXIS_DIGITS) {
+        if let Some(turn) = turn_text(&middle, coordinates, TURN_DIGITS) {
             let _ = writeln!(out, "      its middle: {turn}");
         }
     }

@@ -8,10 +8,14 @@ use std::thread;
 /// Bytes of a thread's stack: as many as the first thread mostly has.
 const STACK: usize = 8 << 20;
 
+/// The machine's cores; one where it does not tell.
+pub fn cores() -> usize {
+    thread::available_parallelism().map_or(1, usize::from)
+}
+
 /// How many of so many tasks are done at once: one for each thread, but no more than cores.
 fn workers(tasks: usize) -> usize {
-    let cores = thread::available_parallelism().map_or(1, usize::from);
-    tasks.min(rayon::current_num_threads()).min(cores)
+    tasks.min(rayon::current_num_threads()).min(cores())
 }
 
 /// In how many turns so many tasks are done.

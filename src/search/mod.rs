@@ -12,7 +12,7 @@ mod at_once;
 pub mod paving;
 pub mod solver;
 
-pub use at_once::{at_once, turns};
+pub use at_once::{at_once, cores, turns};
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;

@@ -368,10 +368,10 @@ pub(crate) fn refutation_and_worst(claim: &MachineClaim) -> Option<Refutation> {
     })
 }
 
-/// The same in far less time, from where the claim was worst of machines that differ from each other more or less, and near
-/// there alone.
-pub(crate) fn refutation_from(claim: &MachineClaim, worst: &[Worst]) -> Option<Refutation> {
-    refutation_at(claim, |sampler| sampler.worst_machines_from(worst, FINEST))
+/// A certificate in far less time, from where the claim was worst of machines that differ from each other more or less,
+/// and near there alone.
+pub(crate) fn refutation_from(claim: &MachineClaim, worst: &[Worst]) -> Option<Box<Certificate>> {
+    refutation_at(claim, |sampler| sampler.worst_machines_from(worst, FINEST))?.0
 }
 
 type Refutation = (Option<Box<Certificate>>, Vec<Worst>);
