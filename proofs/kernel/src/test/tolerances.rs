@@ -225,7 +225,7 @@ impl<E: Enclosure> Over<'_, E> {
         let w = own.iter().map(|&x| e.dyadic(x, places, &one)).collect::<Option<_>>()?;
         let direction = own.iter().enumerate().map(|(i, &x)| match k {
             None => e.integer(x),
-            Some(k) if i == k => e.integer(1i64.checked_shl(places)?),
+            Some(k) if i == k => e.integer(1i64.checked_shl(places).filter(|&x| x > 0)?),
             Some(_) => e.integer(0),
         });
         Some(Toward { k, w, direction: direction.collect::<Option<_>>()? })
