@@ -34,7 +34,7 @@ pub struct Effort {
     /// The form of the answer
     #[arg(long, value_enum, default_value_t)]
     pub format: Format,
-    /// Print the verdict's line only, and no progress
+    /// Print the verdict's line, or the answer's rows, only, and no progress
     #[arg(short, long)]
     pub quiet: bool,
 }
@@ -124,13 +124,8 @@ pub fn time(option: &str, text: &str) -> Result<Duration, Failure> {
         ("s", 1_000_000_000),
         ("", 1_000_000_000),
     ];
-    let refused = || {
-        let text: String = text.chars().take(60).collect();
-        Failure::Input(format!(
-            "{option}: found \"{text}\"; accepted: seconds, such as 10 or 0.5, or a time such as \
-             500ms, 10s, 2min or 1h"
-        ))
-    };
+    let accepted = "seconds, such as 10 or 0.5, or a time such as 500ms, 10s, 2min or 1h";
+    let refused = || input::refused(option, text, accepted);
     let with_unit = |&(unit, nanoseconds)| Some((text.strip_suffix(unit)?, nanoseconds));
     let (number, unit) = UNITS.iter().find_map(with_unit).ok_or_else(refused)?;
     let number = input::number(option, number.trim()).map_err(|_| refused())?;

@@ -5,7 +5,9 @@ use crate::design::{may_be_tolerance, Design};
 use crate::exact::Exact;
 use crate::files::open::reader;
 use crate::files::read::{meant, read, Named};
+use num_rational::BigRational;
 use orthocert_checker::certificate::MOST_BYTES;
+use std::cmp::Ordering;
 use std::fs::{self, File};
 use std::io::{self, BufReader, Read, Take};
 use std::ops::RangeInclusive;
@@ -13,6 +15,8 @@ use std::path::{Path, PathBuf};
 
 /// Most digits of a literal on the command line, as in design files.
 const MAX_DIGITS: usize = 1000;
+/// Most characters of what was given in a message.
+const MOST_QUOTED: usize = 60;
 
 /// The design of a file; without one, the prototype of the paper. What its claim leaves out is told,
 /// unless `quiet`.
@@ -73,24 +77,52 @@ impl Begun {
 
 /// The exact number that an option's value is.
 pub fn number(option: &str, text: &str) -> Result<Exact, Failure> {
+    let shown = quoted(text);
     if may_be_tolerance(text) {
-        let text: String = text.chars().take(60).collect();
         return Err(Failure::Input(format!(
-            "{option}: found \"{text}\", which may be read as a tolerance; accepted: one number such as \
+            "{option}: found \"{shown}\", which may be read as a tolerance; accepted: one number such as \
              2, 1.5, 3/2 or sqrt(2), in a sum blanks on both sides of a sign or on neither"
         )));
     }
     Exact::parse(text, MAX_DIGITS).map_err(|error| {
-        let text: String = text.chars().take(60).collect();
         let number = text.starts_with(|c: char| c.is_ascii_digit());
         let with_unit = number && text.ends_with(|c: char| c.is_alphabetic());
         let hint =
             if with_unit { "; numbers carry no unit: lengths are in the design's" } else { "" };
         Failure::Input(format!(
-            "{option}: found \"{text}\", which is not a number: {error}; accepted: a number such \
+            "{option}: found \"{shown}\", which is not a number: {error}; accepted: a number such \
              as 2, 1.5, 3/2 or sqrt(2){hint}"
         ))
     })
+}
+
+/// The number that an option's value is, from one end to the other.
+pub fn within(option: &str, text: &str, ends: [&str; 2]) -> Result<Exact, Failure> {
+    let found = number(option, text)?;
+    let (least, greatest) = (number(option, ends[0])?, number(option, ends[1])?);
+    let is_within = found.compare(&least).is_some_and(Ordering::is_ge)
+        && found.compare(&greatest).is_some_and(Ordering::is_le);
+    match is_within {
+        true => Ok(found),
+        false => Err(refused(option, text, &format!("a number from {} to {}", ends[0], ends[1]))),
+    }
+}
+
+/// The same, if it is rational.
+pub fn rational_within(option: &str, text: &str, ends: [&str; 2]) -> Result<BigRational, Failure> {
+    let found = within(option, text, ends)?.as_rational().cloned();
+    let accepted = || format!("a rational number from {} to {}", ends[0], ends[1]);
+    found.ok_or_else(|| refused(option, text, &accepted()))
+}
+
+/// That an option's value is not one of those accepted.
+pub fn refused(option: &str, found: &str, accepted: &str) -> Failure {
+    Failure::Input(format!("{option}: found \"{}\"; accepted: {accepted}", quoted(found)))
+}
+
+/// What messages show of a text that was given.
+pub fn quoted(text: &str) -> String {
+    text.chars().take(MOST_QUOTED).collect()
 }
 
 /// Reads an option's value that is a whole number of this range; what begins with a sign is a value, too.

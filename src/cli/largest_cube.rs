@@ -94,7 +94,7 @@ struct Answer {
 pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let started = Instant::now();
     let effort = &arguments.effort;
-    let gap = gap(&arguments.gap)?;
+    let gap = size::gap(&arguments.gap, ["1e-9", "0.5"])?;
     let side = arguments.side.as_deref().map(side).transpose()?;
     let budget = effort.budget(started)?;
     let design = input::design(Some(&arguments.design), effort.quiet)?;
@@ -202,21 +202,10 @@ fn reached(bracket: &Bracket) -> Option<f64> {
     ((&max - &min) / min).to_f64()
 }
 
-fn gap(text: &str) -> Result<f64, Failure> {
-    let number = input::number("--gap", text)?;
-    match crate::exact::decimal::approximate(&number) {
-        Some(gap) if (1e-9..=0.5).contains(&gap) => Ok(gap),
-        _ => Err(Failure::Input(format!(
-            "--gap: found \"{text}\"; accepted: a number from 1e-9 to 0.5"
-        ))),
-    }
-}
-
 fn side(text: &str) -> Result<Expression, Failure> {
     let number = input::number("--side", text)?;
     let positive = (number.sign() == Some(1)).then(|| written(&number)).flatten();
-    positive
-        .ok_or_else(|| Failure::Input(format!("--side: found {text}; accepted: a positive number")))
+    positive.ok_or_else(|| input::refused("--side", text, "a positive number"))
 }
 
 impl Arguments {

@@ -138,7 +138,7 @@ struct EndOfForm {
 pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let started = Instant::now();
     let effort = &arguments.effort;
-    let gap = gap(&arguments.gap)?;
+    let gap = input::rational_within("--gap", &arguments.gap, ["1e-9", "0.5"])?;
     let budget = effort.budget(started)?;
     let bytes = Design::bytes(&arguments.design).map_err(Failure::input)?;
     let design = Design::of(&bytes, &arguments.design).map_err(Failure::input)?;
@@ -227,22 +227,10 @@ impl Arguments {
     }
 }
 
-fn gap(text: &str) -> Result<BigRational, Failure> {
-    let number = input::number("--gap", text)?;
-    let end = |denominator: i64| BigRational::new(1.into(), denominator.into());
-    let admissible = end(1_000_000_000)..=end(2);
-    number.as_rational().filter(|gap| admissible.contains(gap)).cloned().ok_or_else(|| {
-        let text: String = text.chars().take(60).collect();
-        Failure::Input(format!("--gap: found \"{text}\"; accepted: a number from 1e-9 to 0.5"))
-    })
-}
-
 /// A rational number, itself or one very near.
 fn near(own: &Exact) -> Result<BigRational, Failure> {
     let rational = own.as_rational().cloned();
-    rational.or_else(|| own.below(OWN_BITS)).ok_or_else(|| {
-        Failure::Input("the design's numbers exceed what can be reported".to_owned())
-    })
+    rational.or_else(|| own.below(OWN_BITS)).ok_or_else(Failure::too_large)
 }
 
 /// The nodes of a proof.

@@ -110,9 +110,7 @@ fn proved(
         return Err(Failure::Rejected(format!("the proof was not accepted: {reason}")));
     }
     let decision = certify::decided(&mut found)?;
-    let mut report = found.report(&task.claim, started.elapsed()).ok_or_else(|| {
-        Failure::Input("the design's numbers exceed what can be reported".to_owned())
-    })?;
+    let mut report = found.report(&task.claim, started.elapsed()).ok_or_else(Failure::too_large)?;
     report.title.clone_from(&task.title);
     let status = match decision {
         Some(decision) => {

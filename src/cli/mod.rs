@@ -40,6 +40,7 @@ mod verify;
 
 use crate::files::output::{self, OutputError};
 use crate::files::shown::Shown;
+use crate::search::solver::enclose::NotEnclosed;
 use clap::error::{ContextKind, ContextValue};
 use clap::{Parser, Subcommand, ValueEnum};
 use orthocert_checker::certificate::Verdict;
@@ -190,10 +191,24 @@ pub enum Failure {
     Defect,
 }
 
+impl From<NotEnclosed> for Failure {
+    fn from(error: NotEnclosed) -> Self {
+        match error {
+            NotEnclosed::Cancelled => Failure::Interrupted,
+            error => Failure::input(error),
+        }
+    }
+}
+
 impl Failure {
     /// Bad input, from anything that explains itself.
     fn input(error: impl fmt::Display) -> Self {
         Failure::Input(error.to_string())
+    }
+
+    /// Input beyond what answers are made of.
+    fn too_large() -> Self {
+        Failure::Input("the design's numbers exceed what can be reported".to_owned())
     }
 
     /// Says why on standard error; returns the exit code.

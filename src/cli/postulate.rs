@@ -80,8 +80,7 @@ impl Arguments {
                 ("--psi-range", text, "two numbers greater than 1, the lesser first")
             }
         };
-        let text: String = text.chars().take(60).collect();
-        Failure::Input(format!("{flag}: found \"{text}\"; accepted: {accepted}"))
+        input::refused(flag, text, accepted)
     }
 
     fn psi_max(&self) -> Result<PsiMax, Failure> {
@@ -89,9 +88,7 @@ impl Arguments {
             (Some(psi), _) => Quantity::Exactly(number("--psi", psi)?),
             (None, Some(range)) => {
                 let (min, max) = range.split_once("..").ok_or_else(|| {
-                    Failure::Input(format!(
-                        "--psi-range: found \"{range}\"; accepted: two numbers, such as 1.5..3"
-                    ))
+                    input::refused("--psi-range", range, "two numbers, such as 1.5..3")
                 })?;
                 let (min, max) = (number("--psi-range", min)?, number("--psi-range", max)?);
                 match min == max {
@@ -107,9 +104,9 @@ impl Arguments {
 
 fn number(option: &str, text: &str) -> Result<Expression, Failure> {
     written(&input::number(option, text)?).ok_or_else(|| {
-        let text: String = text.chars().take(60).collect();
         Failure::Input(format!(
-            "{option}: found \"{text}\", whose exact value is too long; accepted: a shorter number"
+            "{option}: found \"{}\", whose exact value is too long; accepted: a shorter number",
+            input::quoted(text)
         ))
     })
 }

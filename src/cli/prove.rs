@@ -67,9 +67,8 @@ impl Task<'_> {
                 }
             }
         };
-        let mut report = found.report(claim, self.started.elapsed()).ok_or_else(|| {
-            Failure::Input("the design's numbers exceed what can be reported".to_owned())
-        })?;
+        let mut report =
+            found.report(claim, self.started.elapsed()).ok_or_else(Failure::too_large)?;
         report.title.clone_from(&self.design.title);
         report.length_unit = self.design.unit;
         report.notes = self.design.notes();

@@ -11,7 +11,6 @@ use crate::questions::size::{is_side, Family, Scope, Unknown};
 use crate::report::text::{duration, labelled, verbatim, wrap};
 use crate::report::{counterexample, exactly, CertificateFile, Counterexample};
 use num_rational::BigRational;
-use num_traits::ToPrimitive;
 use orthocert_checker::certificate::Certificate;
 use orthocert_kernel::claim::{Leg, MachineClaim, Mechanism, Quantity};
 use serde::Serialize;
@@ -94,7 +93,7 @@ struct Answer {
 pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let started = Instant::now();
     let effort = &arguments.effort;
-    let width = gap(&arguments.gap, 1e-9, 0.1)?;
+    let width = gap(&arguments.gap, ["1e-9", "0.1"])?;
     let side = side(&arguments.cube)?;
     let design = input::design(arguments.design.as_deref(), effort.quiet)?;
     let claim = &design.claim;
@@ -157,24 +156,15 @@ fn common_length(claim: &MachineClaim) -> Option<Exact> {
 
 fn side(text: &str) -> Result<BigRational, Failure> {
     let number = input::number("--cube", text)?;
-    number.as_rational().filter(|side| is_side(side)).cloned().ok_or_else(|| {
-        let text: String = text.chars().take(60).collect();
-        Failure::Input(format!(
-            "--cube: found \"{text}\"; accepted: a rational number greater than 0: the cube's side"
-        ))
-    })
+    let accepted = "a rational number greater than 0: the cube's side";
+    let side = number.as_rational().filter(|side| is_side(side)).cloned();
+    side.ok_or_else(|| input::refused("--cube", text, accepted))
 }
 
 /// The relative width that an option `--gap` asks for.
-pub fn gap(text: &str, least: f64, greatest: f64) -> Result<f64, Failure> {
-    let number = input::number("--gap", text)?;
-    let value = number.as_rational().and_then(ToPrimitive::to_f64);
-    value.filter(|gap| (least..=greatest).contains(gap)).ok_or_else(|| {
-        let text: String = text.chars().take(60).collect();
-        Failure::Input(format!(
-            "--gap: found \"{text}\"; accepted: a number from {least:e} to {greatest}"
-        ))
-    })
+pub fn gap(text: &str, ends: [&str; 2]) -> Result<f64, Failure> {
+    let found = input::within("--gap", text, ends)?;
+    crate::exact::decimal::approximate(&found).ok_or(Failure::Defect)
 }
 
 /// The failure that there is no answer.

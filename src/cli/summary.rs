@@ -5,7 +5,6 @@ use super::{input, interrupt, print, Failure, Format, Status};
 use crate::questions::summary::{summary, text, Question};
 use crate::report::text::headline_of;
 use crate::report::Outcome;
-use crate::search::solver::enclose::{loosest, NotEnclosed};
 use crate::search::solver::{number, verify};
 use num_rational::BigRational;
 use num_traits::Signed;
@@ -59,6 +58,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let speed = asked("--speed", &arguments.speed, "1200")?;
     let force = asked("--force", &arguments.force, "100")?;
     let acceleration = asked("--acceleration", &arguments.acceleration, "14000")?;
+    let gap = |text| input::rational_within("--gap", text, ["1e-9", "0.1"]);
     let gap = arguments.gap.as_deref().map(gap).transpose()?;
     let budget = effort.budget(started)?;
     let design = input::design(arguments.design.as_deref(), effort.quiet)?;
@@ -95,13 +95,8 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         summary(claim, &found, &question, of_widths, started, control)
     });
     drop(bar);
-    let summary = summary.map_err(|error| match error {
-        NotEnclosed::Cancelled => Failure::Interrupted,
-        error => Failure::input(error),
-    })?;
-    let mut summary = summary.ok_or_else(|| {
-        Failure::Input("the design's numbers exceed what can be reported".to_owned())
-    })?;
+    let summary = summary.map_err(Failure::from)?;
+    let mut summary = summary.ok_or_else(Failure::too_large)?;
     summary.title.clone_from(&design.title);
     summary.length_unit = design.unit;
     summary.design = arguments.design.as_ref().map(|path| path.to_string_lossy().into_owned());
@@ -127,19 +122,6 @@ fn status(verdict: Outcome) -> Status {
 fn positive(option: &str, text: &str, example: &str) -> Result<Expression, Failure> {
     let found = input::number(option, text)?;
     let found = found.as_rational().filter(|x| x.is_positive()).and_then(number);
-    found.ok_or_else(|| {
-        let text: String = text.chars().take(60).collect();
-        let accepted = format!("a rational number greater than 0, such as {example}");
-        Failure::Input(format!("{option}: found \"{text}\"; accepted: {accepted}"))
-    })
-}
-
-fn gap(text: &str) -> Result<BigRational, Failure> {
-    let found = input::number("--gap", text)?;
-    let least = BigRational::new(1.into(), 1_000_000_000.into());
-    let found = found.as_rational().filter(|x| **x >= least && **x <= loosest());
-    found.cloned().ok_or_else(|| {
-        let text: String = text.chars().take(60).collect();
-        Failure::Input(format!("--gap: found \"{text}\"; accepted: a number from 1e-9 to 0.1"))
-    })
+    let accepted = format!("a rational number greater than 0, such as {example}");
+    found.ok_or_else(|| input::refused(option, text, &accepted))
 }

@@ -15,7 +15,9 @@ pub(super) fn compiled(root: &Table<'_>, claim: &kernel::MachineClaim) -> Result
 pub(super) fn refused(root: &Table<'_>, error: &Refused) -> DesignError {
     let Refused { place, expected } = error;
     let found = "a claim that is not well formed";
-    let accepted = format!("a design whose {place} is {expected}");
+    // Which requirement, or leg, it is of stands before.
+    let own = place.split_once(": ").map_or(&place[..], |(_, own)| own);
+    let accepted = format!("a design whose {own} is {expected}");
     match named(root, place) {
         Some(value) => value.error(Defect::Claim, found, accepted),
         None => {

@@ -64,7 +64,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let started = Instant::now();
     let effort = &arguments.effort;
-    let width = gap(&arguments.gap, 1e-6, 0.5)?;
+    let width = gap(&arguments.gap, ["1e-6", "0.5"])?;
     let design = input::design(Some(&arguments.design), effort.quiet)?;
     let claim = &design.claim;
     let kinds = named(&arguments.on, &design)?;
@@ -76,7 +76,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let budget = effort.budget(started)?;
     effort.start_threads()?;
     let nominal = Scheme::common(&kinds).claim(claim, &BigRational::from_integer(0.into()));
-    let nominal = nominal.ok_or_else(too_large)?;
+    let nominal = nominal.ok_or_else(Failure::too_large)?;
     let nodes = match nodes_or_status(&nominal, arguments, budget)? {
         Ok(nodes) => nodes,
         Err(status) => return Ok(status),
@@ -105,10 +105,6 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     interrupt::unless_cancelled(status)
 }
 
-fn too_large() -> Failure {
-    Failure::Input("the design's numbers exceed what can be reported".to_owned())
-}
-
 /// The kinds that are asked for, in the order of [`Kind::ALL`].
 fn named(on: &[String], design: &Design) -> Result<Vec<Kind>, Failure> {
     let claim = &design.claim;
@@ -130,9 +126,9 @@ fn named(on: &[String], design: &Design) -> Result<Vec<Kind>, Failure> {
     for name in on {
         if !there.iter().any(|kind| kind.name() == name.trim()) {
             let names: Vec<&str> = there.iter().map(|kind| kind.name()).collect();
-            let found: String = name.chars().take(60).collect();
             return Err(Failure::Input(format!(
-                "--on: found \"{found}\"; accepted, as this mechanism has them: {}",
+                "--on: found \"{}\"; accepted, as this mechanism has them: {}",
+                input::quoted(name),
                 names.join(", ")
             )));
         }
