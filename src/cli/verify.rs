@@ -7,7 +7,6 @@ use crate::report::{text, Margin, Report};
 use crate::search::solver;
 use crate::search::solver::enclose::enclose;
 use crate::search::solver::extremes::Extreme;
-use crate::search::solver::value::in_words;
 use crate::search::Budget;
 use num_rational::BigRational;
 use orthocert_kernel::claim::{MachineClaim, Orientation};
@@ -116,7 +115,7 @@ fn margins(
     let Ok(problem) = Problem::new(claim) else { return Vec::new() };
     let angular = problem.legs.iter().any(orthocert_kernel::machine::Leg::is_angular);
     let all = Extreme::required(claim, problem.legs.len());
-    let name = |extreme: &Extreme| format!("margin of {}", in_words(&extreme.quantity()));
+    let name = |extreme: &Extreme| format!("margin of {}", extreme.name());
     let names: Vec<String> = all.iter().map(name).collect();
     let found = effort.bar().at_once(&names, 0, |number, turns, control| {
         let found = enclose(claim, &all[number], &width, budget.shared(turns), control).ok()?;

@@ -25,7 +25,6 @@ use orthocert_kernel::number::{Expression, Operator};
 use orthocert_kernel::problem::Problem;
 use std::cell::Cell;
 use std::fmt;
-use std::time::Instant;
 
 /// The first tolerance tried, relative to the greatest number of its unit.
 const START: f64 = 1e-3;
@@ -254,10 +253,20 @@ pub(crate) fn around(quantity: &Quantity, t: &BigRational) -> Option<Quantity> {
     Some(Quantity::Between { min: end(Operator::Sub)?, max: end(Operator::Add)? })
 }
 
+/// What is known of a widest tolerance before it is looked for.
+#[derive(Clone, Debug, Default)]
+pub struct Known {
+    /// Ends, which are gone on from.
+    pub ends: Bracket,
+    /// About where it is refuted.
+    pub refuted: Option<f64>,
+    /// Where a proof is found soon, most likely.
+    pub certified: Option<f64>,
+}
+
 /// Encloses the widest `t` for which the claim widened by `scheme` holds, to `gap`. Where the proofs that the
 /// search finds do not come so near to the refuted end, both are found to a part of `gap`. Where there is a
-/// deadline, a third of the time is for the refuted end. Ends that are `known` are gone on from; else what is refuted is looked
-/// for about `start`, if it is given.
+/// deadline, a third of the time is for the refuted end.
 ///
 /// # Errors
 /// If it was cancelled.
@@ -265,7 +274,7 @@ pub fn widest(
     claim: &MachineClaim,
     scheme: &Scheme,
     gap: f64,
-    (known, start): (Bracket, Option<f64>),
+    known: Known,
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Result<Bracket, NoAnswer> {
@@ -273,25 +282,22 @@ pub fn widest(
     let weight = scheme.weights.iter().filter_map(|(_, weight)| weight.to_f64());
     let scale = scale / weight.fold(f64::MIN_POSITIVE, f64::max);
     let walk = Walk {
-        start: start.unwrap_or(START * scale).clamp(LIMITS.0 * scale, LIMITS.1 * scale),
+        start: known.refuted.unwrap_or(START * scale).clamp(LIMITS.0 * scale, LIMITS.1 * scale),
         succeeds: Succeeds::Above,
-        factor: if start.is_some() { 2.0 } else { 10.0 },
+        factor: if known.refuted.is_some() { 2.0 } else { 10.0 },
         most: LARGEST_FACTOR,
         enough: None,
         limits: (LIMITS.0 * scale, LIMITS.1 * scale),
         gap: gap * SHARE,
-        deadline: budget.deadline.map(|end| {
-            let now = Instant::now();
-            now + end.saturating_duration_since(now) / 3
-        }),
+        deadline: budget.shared(3).deadline,
     };
     let refute =
         |walk: &Walk, control: &mut Control<'_>| refuted(walk, |t| scheme.claim(claim, t), control);
-    let begun = match known.refuted {
+    let begun = match known.ends.refuted {
         None => control.part([0.0, 0.4], |control| refute(&walk, control))?,
-        Some(known) => {
-            let nearer = below(&walk, known.0.to_f64().unwrap_or(walk.limits.1));
-            control.part([0.0, 0.4], |control| refute(&nearer, control))?.or(Some(known))
+        Some(end) => {
+            let nearer = below(&walk, end.0.to_f64().unwrap_or(walk.limits.1));
+            control.part([0.0, 0.4], |control| refute(&nearer, control))?.or(Some(end))
         }
     };
     let refuted = match begun {
@@ -308,17 +314,21 @@ pub fn widest(
     });
     // The best that can be hoped for, first; what is not proved may take all of the time there is, then from afar.
     let near = gap * (1.0 - SHARE);
-    let (first, by_thirds) =
-        if budget.deadline.is_some() { (FAR.0, BY_THIRDS) } else { (near, 1.0) };
     let end = refuted.as_ref().and_then(|(t, _)| t.to_f64());
     let to = end.unwrap_or(LAST * scale);
+    let (first, by_thirds) = match (budget.deadline, known.certified) {
+        (None, _) => (near, 1.0),
+        (Some(_), None) => (FAR.0, BY_THIRDS),
+        (Some(_), Some(likely)) => ((to / likely - 1.0).max(near), BY_THIRDS),
+    };
+    let known = known.ends.certified;
     let to =
         Approach { first, far: FAR, by_thirds, ..Approach::from_afar(to, Succeeds::Below, near) };
-    let to = Approach { known: known.certified.as_ref().and_then(|(t, _)| to.distance(t)), ..to };
+    let to = Approach { known: known.as_ref().and_then(|(t, _)| to.distance(t)), ..to };
     let certified = control
         .part([0.6, 1.0], |control| certified(claim, scheme, (&to, point), budget, control))?;
     let out_of_time = certified.out_of_time || budget.is_over() || control.is_cancelled();
-    Ok(Bracket { certified: certified.found.or(known.certified), refuted, out_of_time })
+    Ok(Bracket { certified: certified.found.or(known), refuted, out_of_time })
 }
 
 /// From just below a tolerance that is refuted.

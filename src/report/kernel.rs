@@ -154,15 +154,16 @@ impl<'a> Facts<'a> {
 
     /// The rows of a verification's worst values.
     pub fn rows(&self, worst: &[Worst]) -> Vec<Row> {
-        let mut rows: Vec<(String, f64, Row)> = Vec::new();
+        let mut rows: Vec<Row> = Vec::new();
         for found in worst {
             let (requirement, unit, relation, sides) = self.demanded(found.quality);
             let texts = |text: &dyn Fn(&Expression) -> String| sides.iter().map(text).collect();
             let row = Row {
-                requirement: requirement.clone(),
+                requirement,
                 of_all: self.of_all(found.quality),
                 margin: found.margin,
                 unit,
+                relation,
                 bound_text: bound_text(relation, texts(&shown)),
                 bound: bound_text(relation, texts(&Expression::to_string)),
                 worst_found: self.value(found.quality, found),
@@ -170,16 +171,20 @@ impl<'a> Facts<'a> {
                 machine: self.machine(&found.place),
                 seems_violated: found.margin < -NOISE,
             };
-            // Both ends of a range of angles are one row.
-            match rows.iter_mut().find(|(name, ..)| *name == requirement) {
-                Some((_, margin, known)) if found.margin < *margin => {
-                    (*margin, *known) = (found.margin, row);
+            // Both ends of a range of angles are one row, and so are the tests of one requirement.
+            match rows.iter_mut().find(|known| known.requirement == row.requirement) {
+                Some(known) => {
+                    let seems_violated = known.seems_violated || row.seems_violated;
+                    let margin = known.margin.min(row.margin);
+                    if row.is_worse_than(known) {
+                        *known = row;
+                    }
+                    (known.seems_violated, known.margin) = (seems_violated, margin);
                 }
-                Some(_) => {}
-                None => rows.push((requirement, found.margin, row)),
+                None => rows.push(row),
             }
         }
-        rows.into_iter().map(|(.., row)| row).collect()
+        rows
     }
 
     fn machine(&self, place: &Place) -> Vec<FreeParameter> {

@@ -115,6 +115,9 @@ pub struct Report {
 pub struct Margin {
     /// The quantity.
     pub quantity: String,
+    /// Its name in texts.
+    #[serde(skip)]
+    pub name: String,
     /// Its unit, where it has one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unit: Option<&'static str>,
@@ -128,8 +131,13 @@ impl Margin {
     /// The certified end of an enclosure.
     pub fn of(extreme: &solver::extremes::Extreme, bound: BigRational, angular: bool) -> Self {
         let relation = if extreme.is_greatest() { "<=" } else { ">=" };
-        let (quantity, unit) = (extreme.quantity(), extreme.unit(angular));
-        Margin { quantity, unit, relation, bound: Exact::Rational(bound) }
+        Margin {
+            quantity: extreme.symbol(),
+            name: extreme.name(),
+            unit: extreme.unit(angular),
+            relation,
+            bound: Exact::Rational(bound),
+        }
     }
 }
 

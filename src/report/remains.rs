@@ -71,6 +71,13 @@ pub struct OpenRequirement {
 
 /// Why a search that tried so many boxes ended without an answer.
 pub fn reason(objection: Option<&Rejected>, stop: Stop, tried: usize) -> String {
+    if let Some(Rejected::Work) = objection {
+        return format!(
+            "after {}, the proof that was found is longer than is admissible; fewer requirements at a time, a smaller \
+             workspace or wider bounds have shorter ones",
+            boxes(tried)
+        );
+    }
     if let Some(objection) = objection {
         return format!("what was found is not accepted by the exact checker: {objection}");
     }

@@ -9,7 +9,7 @@ use super::{
 use crate::exact::decimal::{self, boxes, counted, exact, grouped, significant, Toward};
 use crate::exact::Exact;
 use crate::files::shown::Shown;
-use crate::search::solver::value::{in_length, in_words, listed, with_unit, Coordinates};
+use crate::search::solver::value::{in_length, listed, with_unit, Coordinates};
 use num_rational::BigRational;
 use orthocert_checker::certificate::Verdict;
 use std::fmt::Write;
@@ -140,8 +140,8 @@ fn margins(margins: &[Margin], length: Option<&str>) -> String {
             place == (margin.relation, margin.unit, &margin.bound)
         };
         match told.iter_mut().find(same) {
-            Some((_, names)) => names.push(in_words(&margin.quantity)),
-            None => told.push((margin, vec![in_words(&margin.quantity)])),
+            Some((_, names)) => names.push(&margin.name),
+            None => told.push((margin, vec![&margin.name])),
         }
     }
     let text = |(margin, names): &(&Margin, Vec<&str>)| {
@@ -172,7 +172,7 @@ pub fn meaning(out: &mut String, verdict: Outcome, toleranced: bool) {
 }
 
 /// The rows that are shown, each with its name: all of them, or of what is demanded of every leg alike
-/// the leg with the least margin.
+/// the leg with the worst value.
 fn shown(rows: &[Row], verbose: bool) -> Vec<(String, &Row)> {
     let mut shown: Vec<(&Row, usize)> = Vec::new();
     for row in rows {
@@ -182,7 +182,7 @@ fn shown(rows: &[Row], verbose: bool) -> Vec<(String, &Row)> {
         match shown.iter_mut().find(alike).filter(|_| !verbose) {
             Some((worst, legs)) => {
                 *legs += 1;
-                if row.margin < worst.margin {
+                if row.is_worse_than(worst) {
                     *worst = row;
                 }
             }
@@ -209,15 +209,18 @@ fn table(out: &mut String, report: &Report, verbose: bool) {
         false => format!("at P = ({}){}", names.join(", "), unit.unwrap_or_default()),
     };
     let head = ["requirement".to_owned(), "bound".to_owned(), "worst found".to_owned(), place];
+    let is_of_two = |row: &Row| row.relation == "holds" && !row.seems_violated;
     let cells = |(name, row): &(String, &Row)| {
         let value = match row.worst_found {
             Some(value) => significant(value, VALUE_DIGITS),
-            None if row.bound_text == "holds" => String::new(),
+            // It is of two points: where none are found, sampling tells nothing.
+            None if is_of_two(row) => "-".to_owned(),
             None => "out of reach".to_owned(),
         };
         let mark = if row.seems_violated { "! " } else { "" };
         let requirement = format!("{mark}{}", in_length(name, row.unit, *length));
         let place = match (names.len(), turn_text(&row.at, coordinates, PLACE_DIGITS)) {
+            _ if is_of_two(row) => String::new(),
             (0, Some(turn)) => turn,
             (_, None) => point_text(&row.at, PLACE_DIGITS),
             (places, Some(turn)) => {

@@ -17,6 +17,9 @@ pub struct Row {
     /// The unit of the bound and of the value, where they have one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unit: Option<&'static str>,
+    /// `<=`, `>=` or another relation to the bound.
+    #[serde(skip)]
+    pub relation: &'static str,
     /// The bound, for people.
     #[serde(skip)]
     pub bound_text: String,
@@ -31,4 +34,15 @@ pub struct Row {
     pub machine: Vec<FreeParameter>,
     /// Whether the value found is on the wrong side of the bound.
     pub seems_violated: bool,
+}
+
+impl Row {
+    /// Whether its value is worse than another's of the same bound. Margins of two tests need not be of one scale.
+    pub fn is_worse_than(&self, other: &Self) -> bool {
+        match (self.relation, self.worst_found, other.worst_found) {
+            ("<=", Some(own), Some(other)) if own != other => own > other,
+            (">=", Some(own), Some(other)) if own != other => own < other,
+            _ => self.margin < other.margin,
+        }
+    }
 }

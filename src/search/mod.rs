@@ -15,7 +15,7 @@ pub mod solver;
 pub use at_once::{at_once, cores, turns};
 
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// When to stop.
 #[derive(Clone, Copy, Debug)]
@@ -42,6 +42,11 @@ impl Budget {
         Budget { deadline: self.deadline.map(share), ..self }
     }
 
+    /// The time until the deadline.
+    pub fn left(self) -> Option<Duration> {
+        self.deadline.map(|end| end.saturating_duration_since(Instant::now()))
+    }
+
     /// Whether the deadline has passed.
     pub fn is_over(self) -> bool {
         is_over(self.deadline)
@@ -62,7 +67,7 @@ pub struct Progress {
     pub share: f64,
 }
 
-/// Boxes of searches after each other, of which the last begins where fewer are told than before.
+/// All boxes of searches one after the other: where fewer are told than before, the next one has begun.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Counted {
     ended: usize,
@@ -80,7 +85,7 @@ impl Counted {
     }
 }
 
-/// The outside's hold on a search.
+/// What a search tells of its progress, and how it is cancelled.
 pub struct Control<'a> {
     /// Set to make the search end with [`Stop::Cancelled`].
     pub cancel: &'a AtomicBool,

@@ -228,7 +228,7 @@ impl Extreme {
     fn of(bounded: &Bounded) -> Option<Self> {
         let greatest = bounded.is_greatest();
         let rho = |leg| if greatest { Extreme::GreatestRho(leg) } else { Extreme::LeastRho(leg) };
-        match bounded.quantity().as_str() {
+        match bounded.symbol().as_str() {
             "psi" if greatest => Some(Extreme::GreatestPsi),
             "psi" => Some(Extreme::LeastPsi),
             "rho_1" => Some(rho(0)),

@@ -8,7 +8,7 @@ use crate::cli::{interrupt, Failure};
 use crate::design::Design;
 use crate::exact::Exact;
 use crate::questions::frontier::Bracket;
-use crate::questions::tolerance::{widest, Kind, Scheme};
+use crate::questions::tolerance::{widest, Kind, Known, Scheme};
 use crate::report::{counterexample, CertificateFile, Counterexample};
 use crate::search::{turns, Budget};
 use num_rational::BigRational;
@@ -17,6 +17,9 @@ use orthocert_kernel::claim::MachineClaim;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
+
+/// So much of each kind's own part is proved soon.
+const EASY: f64 = 0.5;
 
 /// What a row's number is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -84,26 +87,24 @@ struct Time {
 struct Asked {
     scheme: Scheme,
     measure: Measure,
-    known: Bracket,
-    /// About where it is refuted, as other rows tell.
-    about: Option<f64>,
+    known: Known,
     /// As soon as it was begun.
     row: Option<Row>,
 }
 
 impl Asked {
     fn new(scheme: Scheme, measure: Measure) -> Self {
-        Asked { scheme, measure, known: Bracket::default(), about: None, row: None }
+        Asked { scheme, measure, known: Known::default(), row: None }
     }
 
     /// The widest tolerance that is certified.
     fn certified(&self) -> Option<&BigRational> {
-        self.known.certified.as_ref().map(|(t, _)| t)
+        self.known.ends.certified.as_ref().map(|(t, _)| t)
     }
 
     /// The narrowest that is refuted.
     fn refuted(&self) -> Option<&BigRational> {
-        self.known.refuted.as_ref().map(|(t, _)| t)
+        self.known.ends.refuted.as_ref().map(|(t, _)| t)
     }
 }
 
@@ -126,8 +127,9 @@ impl Question<'_> {
         let budget = Budget { deadline, ..self.budget };
         let mut improved = self.each.is_none();
         while std::mem::take(&mut improved) && !budget.is_over() {
-            let is_short =
-                |asked: &Asked| asked.known.out_of_time && !asked.known.reaches(self.width);
+            let is_short = |asked: &Asked| {
+                asked.known.ends.out_of_time && !asked.known.ends.reaches(self.width)
+            };
             let mut short = every.clone();
             short.retain(|&at| is_short(&all[at]));
             short.sort_by_key(|&at| all[at].certified().is_some());
@@ -138,20 +140,23 @@ impl Question<'_> {
         let weights = weights.filter_map(|(kind, asked)| Some((*kind, asked.certified()?.clone())));
         let weights: Vec<_> = weights.collect();
         if mixed(kinds) && weights.len() == kinds.len() {
-            // A machine that fails with one kind is among those of all.
+            // A machine that fails with one kind is among those of all; and what is lost adds up over kinds, about.
             let of_kind = |asked: &Asked| (asked.refuted()? / asked.certified()?).to_f64();
             let shares = all[..kinds.len()].iter().filter_map(of_kind);
-            let about = shares.min_by(f64::total_cmp);
+            let refuted = shares.min_by(f64::total_cmp);
+            let certified = Some(EASY / kinds.len() as f64);
+            let known = Known { refuted, certified, ..Known::default() };
             let share = Asked::new(Scheme { weights, leg: None }, Measure::Share);
-            let mut share = [Asked { about, ..share }];
+            let mut share = [Asked { known, ..share }];
             let time = Time { budget: self.budget, after: of_legs, halves: false };
             self.search(bar, (&mut share, &[0]), time)?;
             all.extend(share);
         }
         let of_leg = |(kind, of_all, leg): (&Kind, &Asked, usize)| {
             let scheme = Scheme { leg: Some(leg), ..Scheme::common(&[*kind]) };
-            let about = of_all.refuted().and_then(BigRational::to_f64);
-            Asked { about, ..Asked::new(scheme, measure(kind.is_direction())) }
+            let refuted = of_all.refuted().and_then(BigRational::to_f64);
+            let known = Known { refuted, ..Known::default() };
+            Asked { known, ..Asked::new(scheme, measure(kind.is_direction())) }
         };
         let pairs = kinds.iter().zip(&all);
         let pairs = pairs.flat_map(|(kind, of_all)| (0..legs).map(move |leg| (kind, of_all, leg)));
@@ -181,16 +186,15 @@ impl Question<'_> {
         let own = &*all;
         let found: Vec<Result<_, Failure>> =
             bar.at_once(&names, after, |number, turns, control| {
-                let Asked { scheme, measure, known, about, .. } = &own[which[number]];
-                if interrupt::is_cancelled() {
+                let Asked { scheme, measure, known, row: before } = &own[which[number]];
+                if interrupt::is_cancelled() || (before.is_some() && budget.is_over()) {
                     return Ok(None);
                 }
                 let own = self.each.and_then(|each| Instant::now().checked_add(each));
                 let shared = budget.shared(if halves { 2 } else { turns }).deadline;
                 let deadline = [shared, own].into_iter().flatten().min();
                 let budget = Budget { deadline, ..self.budget };
-                let known = (known.clone(), *about);
-                let found = widest(self.claim, scheme, self.width, known, budget, control)
+                let found = widest(self.claim, scheme, self.width, known.clone(), budget, control)
                     .map_err(|error| explain(error, self.design))?;
                 let row = row(scheme, *measure, &found, self.width, self.arguments)?;
                 Ok(Some((found, row)))
@@ -199,7 +203,7 @@ impl Question<'_> {
         for (&at, found) in which.iter().zip(found) {
             let Some((known, row)) = found? else { continue };
             let before = all[at].certified().cloned();
-            (all[at].known, all[at].row) = (known, Some(row));
+            (all[at].known.ends, all[at].row) = (known, Some(row));
             improved |= all[at].certified() != before.as_ref();
         }
         Ok(improved)

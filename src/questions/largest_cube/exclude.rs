@@ -3,7 +3,7 @@
 use crate::questions::frontier::NoAnswer;
 use crate::search::solver::doubles::{middle, Pair};
 use crate::search::solver::fails::Failing;
-use crate::search::solver::search::{search, Boxes, Branch, Cell, Ends, Trial};
+use crate::search::solver::search::{search, Boxes, Cell, Ends, Trial};
 use crate::search::solver::{approximate, confirmed, Answer, PRECISIONS};
 use crate::search::{Budget, Control, Stop};
 use orthocert_checker::certificate::Certificate;
@@ -75,8 +75,7 @@ pub fn exclude(
     let offset = |n: i64| [n % 3, n / 3 % 3, n / 9].map(|i| i - 1);
     let point = |n| (offset(n).map(|i| i * OFFSET_PARTS), offset(n).map(|i| i as f64 * half));
     let centres = Centres { failing, points: (0..27).map(point).collect() };
-    let found = search(&centres, &Branch::whole(&centres), Ends::default(), budget, control);
-    let Some(found) = found else { return Ok(None) };
+    let found = search(&centres, Ends::default(), budget, control);
     if found.stop == Stop::Cancelled {
         return Err(NoAnswer::Cancelled);
     }

@@ -15,7 +15,7 @@ pub struct DesignFamily<'a, 'c> {
     pub variable: &'a Variable<'a>,
     /// For each value.
     pub budget: Budget,
-    /// The outside's hold on the searches.
+    /// Their progress, and how they are cancelled.
     pub control: &'a mut Control<'c>,
 }
 

@@ -151,7 +151,7 @@ impl<'a> Sampled<'a> {
             let (number, leg, row, bound) = (*number, *leg, row.clone(), bound.clone());
             let one = Worst { number, leg, left: left(number, leg, &bound, &row), row, bound };
             match worst.iter_mut().find(|other| other.number == number) {
-                Some(other) if one.row.margin < other.row.margin => *other = one,
+                Some(other) if one.row.is_worse_than(&other.row) => *other = one,
                 Some(_) => {}
                 None => worst.push(one),
             }

@@ -14,6 +14,13 @@ use std::f64::consts::TAU;
 
 /// Places from which the search goes on, of those of the grid.
 const STARTS: usize = 4;
+/// Machines at pseudo-random ends of the tolerances, from which it is begun too.
+const MACHINES: usize = 8;
+/// Most alternations of machine and point.
+const ROUNDS: usize = 8;
+/// Most times that every parameter is looked at in one of them.
+const SWEEPS: usize = 4;
+
 impl Sampler<'_> {
     /// Of an accuracy, the machine that is farthest off at a point, to first order: each tolerance at the end
     /// that, by differences of the joint coordinates, goes with the worst signs. One end after the other
@@ -55,16 +62,7 @@ impl Sampler<'_> {
         }
         Some(found)
     }
-}
 
-/// Machines at pseudo-random ends of the tolerances, from which it is begun too.
-const MACHINES: usize = 8;
-/// Most alternations of machine and point.
-const ROUNDS: usize = 8;
-/// Most times that every parameter is looked at in one of them.
-const SWEEPS: usize = 4;
-
-impl Sampler<'_> {
     /// The worst value of every quality over the points and the machines, as far as it was found,
     /// down to steps of `2^-finest`.
     pub fn worst_machines(&self, finest: i32) -> Vec<Worst> {

@@ -1,6 +1,6 @@
 //! Trees of fewer leaves, by a look at what becomes of halves.
 
-use super::search::{halved, search, Boxes, Branch, Cell, Ends, Trial};
+use super::search::{halved, search, Boxes, Cell, Ends, Trial};
 use crate::search::{Budget, Control};
 use orthocert_kernel::certificate::Node;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -71,7 +71,6 @@ pub(super) fn fewer(
     let budget = Budget { max_boxes: nodes.len() - 1, deadline: None };
     let ends = Ends { hopeless: true, ..Ends::default() };
     let control = &mut Control { cancel, progress: &mut |_| {} };
-    let found = search(&ahead, &Branch::whole(&ahead), ends, budget, control);
-    let found = found.filter(|found| found.is_proof()).map(|found| found.nodes);
+    let found = search(&ahead, ends, budget, control).proof();
     (found.unwrap_or(nodes), ahead.boxes.into_inner())
 }

@@ -3,16 +3,16 @@
 //! An extreme lies between a bound that is certified and one that is refuted.
 
 use super::evidence::Prover;
-use super::extremes::{defining, Extreme};
+use super::extremes::Extreme;
 use super::refute::witness_at;
 use super::sample::{Place, Quality, Sampler, Worst};
 use super::search::{resume, Ends, Outcome};
 use super::trees::{with_derivatives, InParts, Ways, FEW_APART};
-use super::value::{alone, Bounded};
+use super::value::{alone, defining, of_sought, Bounded};
 use super::{accepted, look_into, refuted, verify, Answer};
 use crate::search::{Budget, Control, Steps, Stop};
 use num_rational::BigRational;
-use num_traits::{FromPrimitive, One, Signed, Zero};
+use num_traits::{FromPrimitive, One, Signed, ToPrimitive, Zero};
 use orthocert_checker::certificate::{Certificate, Verdict};
 use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::input::ClaimError;
@@ -141,6 +141,38 @@ pub fn enclose(
         Ok(None)
     });
     found?.ok_or(NotEnclosed::Undecided)
+}
+
+/// Encloses an extreme by the bound that the claim itself has for it: for where no narrower one is proved.
+///
+/// # Errors
+/// See [`NotEnclosed`]; where the claim has none, it is not enclosed.
+pub fn as_required(
+    claim: &MachineClaim,
+    extreme: &Extreme,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Result<Enclosed, NotEnclosed> {
+    let probe = extreme.probe(claim).ok_or(NotEnclosed::Undecided)?;
+    let budget = of_one_width(budget, &Problem::new(&probe)?);
+    let own = extreme.required_bound(claim).ok_or(NotEnclosed::Undecided)?;
+    let own_claim = extreme.well_formed(claim, &own).ok_or(NotEnclosed::Undecided)?;
+    let mut known = Found::worst(&probe, extreme, 1)?;
+    if budget.is_over() || own.to_f64().is_none_or(|own| !extreme.is_beyond(own, known.value)) {
+        return Err(NotEnclosed::Undecided);
+    }
+    let (certified, boxes) =
+        match certify(&own_claim, &mut known, extreme, (&mut None, true), budget, control)? {
+            Attempt::Certified(certified, boxes) => (certified, boxes),
+            Attempt::Undecided(Stop::Time) => return Err(NotEnclosed::Time),
+            Attempt::Undecided(_) | Attempt::Worse => return Err(NotEnclosed::Undecided),
+        };
+    let [narrowest, widest] = [(1, 1000), (1 << LOOSER, 10)]
+        .map(|(n, d): (i64, i64)| BigRational::new(n.into(), d.into()));
+    let inner = inner_end(claim, extreme, &known, [&narrowest, &widest])?;
+    let Inner { value: inner, refuted, .. } = inner.ok_or(NotEnclosed::Undecided)?;
+    let width = (&own - &inner).abs() / known.size()?;
+    Ok(Enclosed { width, inner, outer: own, refuted, certified, boxes })
 }
 
 /// What is found at the width `relative`, or else at the narrowest of its doubles up to [`loosest`], by halves of
@@ -321,8 +353,8 @@ impl Extreme {
         problem: &Problem,
         number: usize,
     ) -> Option<Bounded> {
-        let first = problem.obligations[number].requirement == Some(0);
-        let own = |bounded: &Bounded| first && bounded.angle == self.bounded().angle;
+        let is_sought = of_sought(problem).any(|own| own == Quality::Obligation(number));
+        let own = |bounded: &Bounded| is_sought && bounded.angle == self.bounded().angle;
         Bounded::of(claim, problem, number).filter(own)
     }
 
@@ -447,12 +479,9 @@ fn certify(
             Answer::Undecided(_) | Answer::Cancelled => Attempt::Undecided(Stop::Hopeless),
         });
     }
-    let own = sampler.qualities().into_iter().filter(|quality| {
-        matches!(quality, Quality::Obligation(at) if problem.obligations[*at].requirement == Some(0))
-    });
     let place = sampler.centre();
     let unknown = |quality| Worst { quality, place: place.clone(), margin: f64::MAX };
-    let mut worst: Vec<Worst> = own.map(unknown).collect();
+    let mut worst: Vec<Worst> = of_sought(&problem).map(unknown).collect();
     look_into(&sampler, &found.open, OPEN_CENTRES, &mut worst);
     worst.retain(|found| found.margin < 0.0);
     worst.sort_by(|a, b| a.margin.total_cmp(&b.margin));
@@ -482,10 +511,7 @@ fn refute(claim: &MachineClaim, place: &Place) -> Option<Box<Certificate>> {
     let problem = Problem::new(claim).ok()?;
     let sampler = Sampler::new(claim, &problem).ok()?;
     let values = sampler.at(place);
-    let own = (0..problem.obligations.len())
-        .filter(|&at| problem.obligations[at].requirement == Some(0))
-        .map(Quality::Obligation);
-    let worst = own
+    let worst = of_sought(&problem)
         .map(|quality| (sampler.margin(quality, &values), quality))
         .min_by(|a, b| a.0.total_cmp(&b.0))?;
     let found = Worst { quality: worst.1, place: place.clone(), margin: worst.0 };

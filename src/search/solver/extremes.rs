@@ -1,9 +1,10 @@
 //! Extremes: how small and how large each quantity of the kernel's table gets. Claims about one have its bound alone.
 
 use super::refute::number;
-use super::value::{alone, Bounded};
+use super::value::{defining, name_of, sought, Bounded};
 use crate::exact::Exact;
 use num_rational::BigRational;
+use num_traits::{One, Zero};
 use orthocert_kernel::claim::{Bound, MachineClaim, Mechanism, Requirement, Workspace};
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
@@ -135,6 +136,34 @@ impl Extreme {
         all
     }
 
+    /// The tightest rational bound that a claim itself has for it.
+    pub(super) fn required_bound(&self, claim: &MachineClaim) -> Option<BigRational> {
+        let one = &self.bounded.requirement;
+        let is_speed = one.quantity == "joint_speed";
+        let is_it = |own: &&Requirement| {
+            own.quantity == one.quantity
+                && (own.given == one.given || is_speed)
+                && (own.leg.is_none() || own.leg == one.leg)
+        };
+        let rational =
+            |x: &Expression| Exact::parse(&x.to_string(), MOST_DIGITS).ok()?.as_rational().cloned();
+        let of = |own: &Requirement| {
+            let x = match (&own.bound, &one.bound) {
+                (Bound::Min(x) | Bound::Within([x, _]), Bound::Min(_)) => x,
+                (Bound::Max(x) | Bound::Within([_, x]), Bound::Max(_)) => x,
+                _ => return None,
+            };
+            // Here it is that of a unit of tool speed.
+            let tool = own.given.get("tool").filter(|_| is_speed);
+            let tool =
+                tool.map_or_else(|| Some(BigRational::one()), |tool| rational(tool.first()?));
+            Some(rational(x)? / tool.filter(|tool| !tool.is_zero())?)
+        };
+        // Of an accuracy it is the distance's.
+        let all = claim.require.iter().filter(is_it).filter_map(of).filter(|_| !self.bounded.angle);
+        all.reduce(if self.is_greatest() { BigRational::min } else { BigRational::max })
+    }
+
     /// A bound with which the claim is well formed.
     pub(super) fn probe(&self, claim: &MachineClaim) -> Option<MachineClaim> {
         let two = BigRational::from_integer(2.into());
@@ -153,24 +182,29 @@ impl Extreme {
 
     /// "The quantity stays within `bound`", and nothing else but what defines the paper's cube.
     pub(super) fn claim(&self, claim: &MachineClaim, bound: &BigRational) -> Option<MachineClaim> {
-        let mut require = vec![self.bounded.bounded_by(number(bound)?)?];
-        require.extend(defining(claim));
-        Some(alone(claim, require))
+        Some(sought(claim, self.bounded.bounded_by(number(bound)?)?))
     }
 
-    /// The quantity's name for scripts; for people [`in_words`](super::value::in_words).
-    pub fn quantity(&self) -> String {
+    /// The quantity's name in texts.
+    pub fn name(&self) -> String {
         let Requirement { quantity, .. } = &self.bounded.requirement;
         match (quantity.as_str(), self.bounded.leg) {
             ("accuracy", _) if self.bounded.angle => self.bounded.name(),
             ("transmission", _) => "psi".to_owned(),
             ("joint_range", Some(leg)) => format!("rho_{}", leg + 1),
-            ("conditioning", _) => "sigma_max/sigma_min".to_owned(),
-            ("serial_margin", _) => "|eta_i|/L_i".to_owned(),
-            ("parallel_margin", _) => "|det A|/(L_1 .. L_n)".to_owned(),
             ("joint_speed", _) => "joint/tool speed".to_owned(),
-            (_, Some(leg)) => format!("{} {}", quantity.replace('_', " "), leg + 1),
-            (_, None) => quantity.replace('_', " "),
+            (quantity, Some(leg)) => format!("{} {}", name_of(quantity), leg + 1),
+            (quantity, None) => name_of(quantity),
+        }
+    }
+
+    /// The same for scripts, which have symbols where there are some.
+    pub fn symbol(&self) -> String {
+        match self.bounded.requirement.quantity.as_str() {
+            "conditioning" => "sigma_max/sigma_min".to_owned(),
+            "serial_margin" => "|eta_i|/L_i".to_owned(),
+            "parallel_margin" => "|det A|/(L_1 .. L_n)".to_owned(),
+            _ => self.name(),
         }
     }
 
@@ -210,12 +244,4 @@ pub fn of_cube(claim: &MachineClaim) -> Vec<(bool, Exact)> {
     let is_least = psi_max.compare(&Exact::integer(2)).is_some_and(Ordering::is_le);
     let least = inverse.filter(|_| is_least).map(|inverse| (false, inverse));
     least.into_iter().chain([(true, psi_max)]).collect()
-}
-
-/// What defines the paper's cube.
-pub(super) fn defining(claim: &MachineClaim) -> Option<Requirement> {
-    let is_it =
-        |own: &&Requirement| own.quantity == "transmission" && matches!(own.bound, Bound::Max(_));
-    let cube = matches!(claim.workspace, Workspace::Cube { .. });
-    claim.require.iter().find(is_it).filter(|_| cube).cloned()
 }

@@ -78,7 +78,7 @@ use orthocert_kernel::input::ClaimError;
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
 use sample::{Sampler, Worst};
-use search::{search, Branch, Ends, Open, Outcome};
+use search::{search, search_below, Branch, Ends, Open, Outcome};
 use std::sync::atomic::AtomicBool;
 use trees::{in_ranges, with_derivatives, Ways, FEW_APART, MOST_APART};
 
@@ -163,6 +163,15 @@ pub fn verify(
     let points: Vec<Vec<f64>> = worst.iter().map(|found| sampler.point(&found.place.u)).collect();
     let ways = Ways::new(&prover, (&points, MOST_APART), budget);
     let search = |control: &mut Control<'_>| {
+        // Of platforms that turn it takes millions of boxes to come where they are hopeless. Half of the time is for those.
+        let turns = searched.derived.is_some() && !searched.orientation.is_empty();
+        if turns && !ways.holds(false) {
+            let ways = Ways::new(&prover, (&points, MOST_APART), budget.shared(2));
+            let found = control.part([0.0, 0.5], |control| ways.apart_or_in_parts(control));
+            if let Some(found) = found {
+                return found;
+            }
+        }
         let found = ways.tree(searched.derived.is_some(), control);
         // What is open is looked for where nothing is given up.
         match found.stop {
@@ -246,7 +255,7 @@ pub fn top(
     let prover = Prover::new(&problem)?;
     let ends = Ends { enough: Some(enough), ..Ends::default() };
     let budget = Budget { max_boxes: usize::MAX, deadline: None };
-    Ok(search(&prover, &Branch::whole(&prover), ends, budget, control))
+    Ok(Some(search(&prover, ends, budget, control)))
 }
 
 /// The tree below a branch; none below one that no tree of the claim has.
@@ -260,7 +269,7 @@ pub fn below(
     control: &mut Control<'_>,
 ) -> Result<Option<Outcome>, ClaimError> {
     let problem = in_parts(claim, control)?;
-    Ok(search(&Prover::new(&problem)?, branch, Ends::default(), budget, control))
+    Ok(search_below(&Prover::new(&problem)?, branch, Ends::default(), budget, control))
 }
 
 /// What a tree that was grown in parts, and on which nothing is open, amounts to.

@@ -4,7 +4,7 @@ use super::apart::{at_place, Stretched, LENGTHS};
 use super::doubles::{magnitude, Pair};
 use super::evidence::{centre, next_to, sums_of_shares, Over, Prover};
 use super::rows::Rows;
-use super::search::{halved, search, Boxes, Branch, Cell, Ends, Trial};
+use super::search::{halved, search, Boxes, Cell, Ends, Trial};
 use crate::search::{Budget, Control};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use orthocert_kernel::certificate::{Node, Step};
@@ -87,8 +87,7 @@ impl<'a> Parts<'a> {
         let there = Parts { root, provers: Mutex::default(), ..*self };
         let ends = Ends { hopeless: true, enough: Some(ABREAST_NEXT_TO_POINT) };
         let budget = Budget { max_boxes: budget.max_boxes / NEXT_TO_POINT, ..budget };
-        let found = search(&there, &Branch::whole(&there), ends, budget, control);
-        found.is_some_and(|found| found.is_proof())
+        search(&there, ends, budget, control).is_proof()
     }
 
     /// Which inputs the ranges are of.

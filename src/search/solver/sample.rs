@@ -397,7 +397,7 @@ impl<'a> Sampler<'a> {
         self.at_program(place, program, self.accuracy(quality).is_some())
     }
 
-    /// The same at a place; nothing else is computed there.
+    /// The same at a place, of what it needs alone.
     pub fn margin_at(&self, quality: Quality, place: &Place) -> f64 {
         let values = self.at_machine(quality, place);
         self.defined(quality, &values).unwrap_or_else(|| self.margin(quality, &self.at(place)))
@@ -430,7 +430,16 @@ impl<'a> Sampler<'a> {
                 1.0 - greatest / least / root(c)?
             }
             Test::AtLeast(f) => values.of(*f)?,
-            Test::Beyond(f, b) => values.of(*f)?.abs() - values.of(*b)?,
+            // Whatever both are multiples of, as determinants are.
+            Test::Beyond(f, b) => {
+                let (f, b) = (values.of(*f)?.abs(), values.of(*b)?);
+                let size = f.max(b.abs());
+                if size > 0.0 {
+                    (f - b) / size
+                } else {
+                    0.0
+                }
+            }
             Test::Least(rows, kappa) => {
                 let xi = violation::divided(values, rows.iter())?.singular_values();
                 beyond(xi.min(), root(kappa)?)

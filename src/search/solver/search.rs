@@ -45,11 +45,6 @@ pub struct Branch {
 }
 
 impl Branch {
-    /// The whole tree.
-    pub fn whole(problem: &impl Boxes) -> Self {
-        Branch { path: Vec::new(), open: (0..problem.obligations()).collect() }
-    }
-
     /// The box, with the halvings of each coordinate; none beyond what trees have.
     fn begin(&self, problem: &impl Boxes) -> Option<Growing> {
         let mut cell = problem.root().clone();
@@ -160,8 +155,18 @@ pub struct Ends {
     pub enough: Option<usize>,
 }
 
-/// Searches for a proof of what is open on a branch; none of a branch that no tree has.
+/// Searches for a proof of all there is.
 pub fn search(
+    problem: &impl Boxes,
+    ends: Ends,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Outcome {
+    grow(problem, (vec![root(problem)], vec![0]), &[], ends, budget, control)
+}
+
+/// Searches for a proof of what is open on a branch; none of a branch that no tree has.
+pub fn search_below(
     problem: &impl Boxes,
     branch: &Branch,
     ends: Ends,
@@ -183,7 +188,7 @@ pub fn resume(
 ) -> Option<Outcome> {
     let waiting = before.waiting.iter().map(|(position, branch)| (*position, &branch.open));
     let waiting: HashMap<usize, &Vec<usize>> = waiting.collect();
-    let mut tree = vec![Branch::whole(problem).begin(problem)?];
+    let mut tree = vec![root(problem)];
     let (mut level, mut ahead) = (Vec::new(), vec![0]);
     for (position, node) in before.nodes.iter().enumerate() {
         let at = ahead.pop()?;
@@ -253,6 +258,13 @@ fn grow(
     }
     let (nodes, open, waiting) = in_preorder(tree, path);
     Outcome { nodes, open, waiting, boxes, stop }
+}
+
+/// All that is to be covered, and shown there.
+fn root(problem: &impl Boxes) -> Growing {
+    let (cell, obligations) = (problem.root().clone(), (0..problem.obligations()).collect());
+    let halvings = vec![0; cell.len()];
+    growing(Open { cell, depth: 0, obligations }, halvings)
 }
 
 fn growing(item: Open, halvings: Vec<u32>) -> Growing {

@@ -1,9 +1,9 @@
 //! The angles that a joint takes: a certified sector in which all of them are, up to whole turns.
 
-use super::enclose::{narrowest, of_one_width, rounded, NotEnclosed};
+use super::enclose::{narrowest, of_one_width, rounded, Enclosed, NotEnclosed};
 use super::refute::number;
-use super::sample::{Place, Quality, Sampler, Worst};
-use super::value::{alone, middle as range_middle, turns, Bounded};
+use super::sample::{Place, Sampler, Worst};
+use super::value::{alone, middle as range_middle, of_sought, turns, Bounded};
 use super::{proof, refutation};
 use crate::search::{Budget, Control, Steps, Stop};
 use num_rational::BigRational;
@@ -31,6 +31,20 @@ pub struct Sector {
     pub reached: [Option<(BigRational, Box<Certificate>)>; 2],
     /// The width of both enclosures relative to that of the sector.
     pub width: BigRational,
+}
+
+impl Sector {
+    /// Its ends, each where it is reached.
+    pub fn into_ends(self) -> [Result<Enclosed, NotEnclosed>; 2] {
+        let Sector { certified: [lower, upper], certificate, reached: [least, greatest], width } =
+            self;
+        let end = |outer, reached: Option<(BigRational, Box<Certificate>)>| {
+            let (inner, refuted) = reached.ok_or(NotEnclosed::Undecided)?;
+            let (width, certified) = (width.clone(), certificate.clone());
+            Ok(Enclosed { width, inner, outer, refuted: Some(refuted), certified, boxes: 0 })
+        };
+        [end(lower, least), end(upper, greatest)]
+    }
 }
 
 /// Encloses the angles of the joint of a leg, counted from zero.
@@ -103,11 +117,8 @@ fn seen(claim: &MachineClaim, leg: usize) -> Result<[f64; 2], NotEnclosed> {
         let about = match middle {
             Some(angle) => {
                 let worst = sampler.worst_values(FINEST).into_iter();
-                let own = worst.filter(|found: &Worst| {
-                    matches!(found.quality, Quality::Obligation(at)
-                        if problem.obligations[at].requirement == Some(0))
-                });
-                places.extend(own.map(|found| found.place));
+                let own = |found: &Worst| of_sought(&problem).any(|own| own == found.quality);
+                places.extend(worst.filter(own).map(|found| found.place));
                 angle
             }
             None => {
@@ -118,8 +129,8 @@ fn seen(claim: &MachineClaim, leg: usize) -> Result<[f64; 2], NotEnclosed> {
         middle = Some(about);
         let before = (lo, hi);
         for place in &places {
-            let turned = angle(place).ok_or(NotEnclosed::Singular)? - about;
-            let turned = about + turned - 360.0 * (turned / 360.0).round();
+            let turned = angle(place).ok_or(NotEnclosed::Singular)?;
+            let turned = turned + turns(turned, about);
             (lo, hi) = (lo.min(turned), hi.max(turned));
         }
         if hi - lo < LEAST {

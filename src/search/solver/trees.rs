@@ -13,7 +13,7 @@
 
 use super::evidence::{Apart, Prover};
 use super::parts::Parts;
-use super::search::{resume, search, Branch, Ends, Outcome};
+use super::search::{resume, search, Ends, Outcome};
 use crate::search::{Budget, Control, Stop};
 use orthocert_kernel::problem::Problem;
 use std::cell::Cell;
@@ -135,9 +135,8 @@ impl<'a, 'p> Ways<'a, 'p> {
     }
 
     fn at_most(&self, most: usize, hopeless: bool, control: &mut Control<'_>) -> Outcome {
-        let (whole, ends) = (Branch::whole(self.prover), Ends { hopeless, ..Ends::default() });
-        search(self.prover, &whole, ends, self.budget.at_most(most), control)
-            .expect("the root is a box of the tree")
+        let ends = Ends { hopeless, ..Ends::default() };
+        search(self.prover, ends, self.budget.at_most(most), control)
     }
 
     /// A proof of few boxes of a problem with tolerances; with directions apart if the tests hold so next to the points.
@@ -154,22 +153,26 @@ impl<'a, 'p> Ways<'a, 'p> {
         if found.is_proof() {
             return Ok(found);
         }
-        if !self.points.iter().all(|point| self.prover.holds_next_to(point, true)) {
-            return Err(Some(found));
-        }
         match self.apart(self.most_apart, control).filter(Outcome::is_proof) {
             Some(apart) => Ok(Outcome { boxes: found.boxes + apart.boxes, ..apart }),
             None => Err(Some(found)),
         }
     }
 
+    /// Whether every test holds next to each of the points, with directions apart if they are.
+    pub fn holds(&self, apart: bool) -> bool {
+        self.points.iter().all(|point| self.prover.holds_next_to(point, apart))
+    }
+
     /// A proof of at most so many boxes of the workspace, with directions apart where one is hopeless without, or what was
-    /// cancelled; it is not looked for twice.
+    /// cancelled; none where tests fail so next to the points, and it is not looked for twice.
     pub fn apart(&self, most: usize, control: &mut Control<'_>) -> Option<Outcome> {
         self.prover.problem.derived.as_ref().filter(|_| most > self.tried_apart.get())?;
+        if !self.holds(true) {
+            return None;
+        }
         let ends = Ends { hopeless: true, ..Ends::default() };
-        let whole = Branch::whole(self.prover);
-        let found = search(&Apart(self.prover), &whole, ends, self.budget.at_most(most), control)?;
+        let found = search(&Apart(self.prover), ends, self.budget.at_most(most), control);
         self.tried_apart.set(most);
         found.is_final().then_some(found)
     }
@@ -197,6 +200,6 @@ impl<'a, 'p> Ways<'a, 'p> {
         if about.is_some_and(|point| !parts.hold_next_to(point, budget, control)) {
             return None;
         }
-        search(&parts, &Branch::whole(&parts), ends, budget, control).filter(Outcome::is_final)
+        Some(search(&parts, ends, budget, control)).filter(Outcome::is_final)
     }
 }

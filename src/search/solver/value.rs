@@ -64,16 +64,6 @@ pub fn name_of(quantity: &str) -> String {
     }
 }
 
-/// The name in texts of what [`Extreme::quantity`](super::extremes::Extreme::quantity) gives a symbol.
-pub fn in_words(symbol: &str) -> &str {
-    match symbol {
-        "sigma_max/sigma_min" => "condition number",
-        "|eta_i|/L_i" => "serial margin",
-        "|det A|/(L_1 .. L_n)" => "parallel margin",
-        other => other,
-    }
-}
-
 /// A quantity's name with its unit in a table, where the unit has an angle in it.
 pub fn with_unit(name: &str, unit: Option<&str>) -> String {
     match unit.filter(|unit| has_angle(unit)) {
@@ -379,18 +369,12 @@ impl Bounded {
 
     /// How far a bound is from being violated at a place; `None` where it is none.
     fn margin_with(&self, claim: &MachineClaim, place: &Place, x: f64) -> Option<f64> {
-        let defining = claim.require.iter().find(|own| own.quantity == "transmission").cloned();
-        let mut require = vec![self.with(x)?];
-        if let Workspace::Cube { .. } = claim.workspace {
-            require.extend(defining);
-        }
-        let claim = alone(claim, require);
+        let claim = sought(claim, self.with(x)?);
         let problem = Problem::new(&claim).ok()?;
         let sampler = Sampler::new(&claim, &problem).ok()?;
         let values = sampler.at(place);
-        let numbers = 0..problem.obligations.len();
-        let own = numbers.filter(|&at| problem.obligations[at].requirement == Some(0));
-        own.map(|at| sampler.margin(Quality::Obligation(at), &values)).reduce(f64::min)
+        let own = of_sought(&problem);
+        own.map(|quality| sampler.margin(quality, &values)).reduce(f64::min)
     }
 
     /// The bound `x > 0` whose margin is zero: by secants, or, where they do not arrive, by halving.
@@ -438,6 +422,26 @@ impl Bounded {
         }
         Some(a)
     }
+}
+
+/// The claim of one requirement, the first, and of nothing else but what defines the paper's cube.
+pub(super) fn sought(claim: &MachineClaim, requirement: Requirement) -> MachineClaim {
+    alone(claim, std::iter::once(requirement).chain(defining(claim)).collect())
+}
+
+/// The obligations of that one requirement.
+pub(super) fn of_sought(problem: &Problem) -> impl Iterator<Item = Quality> + '_ {
+    let numbered = problem.obligations.iter().enumerate();
+    let own = numbered.filter(|(_, own)| own.requirement == Some(0));
+    own.map(|(number, _)| Quality::Obligation(number))
+}
+
+/// What defines the paper's cube.
+pub(super) fn defining(claim: &MachineClaim) -> Option<Requirement> {
+    let is_it =
+        |own: &&Requirement| own.quantity == "transmission" && matches!(own.bound, Bound::Max(_));
+    let cube = matches!(claim.workspace, Workspace::Cube { .. });
+    claim.require.iter().find(is_it).filter(|_| cube).cloned()
 }
 
 /// The claim of these requirements alone; its bodies are claimed where their clearance is.

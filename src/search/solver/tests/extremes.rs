@@ -4,9 +4,9 @@ use super::kinds::three_rpr;
 use super::*;
 use crate::design::Design;
 use crate::questions::frontier::Bracket;
-use crate::questions::tolerance::{widest, Kind, Scheme};
+use crate::questions::tolerance::{widest, Kind, Known, Scheme};
 use crate::search::solver::enclose::{
-    enclose, is_singular, loosest, narrowest, Enclosed, NotEnclosed,
+    as_required, enclose, is_singular, loosest, narrowest, Enclosed, NotEnclosed,
 };
 use crate::search::solver::extremes::Extreme;
 use crate::search::solver::value::Bounded;
@@ -125,7 +125,6 @@ fn a_singular_machine_has_none() {
     assert!(is_singular(&claim, budget, &mut control).expect("a claim"));
 }
 
-/// Values by definition are the bounds that are met with equality.
 #[test]
 fn tolerances_are_enclosed_to_second_order() {
     // Thirty numbers with tolerances of 1e-4 or so; in ranges the widths are 1e-3 to 3e-2.
@@ -245,6 +244,7 @@ fn a_machine_within_the_tolerance_refutes_on_the_spot() {
     }
 }
 
+/// Values by definition are the bounds that are met with equality.
 #[test]
 fn values_are_tight_bounds() {
     for claim in [orthoglide(r#"{"min":"311","max":"312"}"#, CUBE), rotary()] {
@@ -330,7 +330,7 @@ fn what_was_found_before_time_is_up_stays() {
     assert_eq!(widths(1, false, 0), (vec![], Err(())));
 }
 
-fn of_file(design: &str) -> MachineClaim {
+pub fn of_file(design: &str) -> MachineClaim {
     let file = format!("{}/tests/designs/{design}.toml", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(&file).expect("a file");
     Design::parse(&text, design).expect("a design").claim
@@ -348,10 +348,7 @@ fn a_tree_goes_on_from_few_boxes() {
         let problem = with_derivatives(Problem::new(&claim).expect("a claim"));
         let prover = Prover::new(&problem).expect("numbers");
         let budget = Budget { max_boxes: 4000, deadline: None };
-        let mut begin = |most| {
-            let (whole, ends) = (Branch::whole(&prover), Ends::default());
-            search(&prover, &whole, ends, budget.at_most(most), &mut control).expect("a tree")
-        };
+        let mut begin = |most| search(&prover, Ends::default(), budget.at_most(most), &mut control);
         let before = begin(if is_hopeless { 1000 } else { 100 });
         assert_eq!(before.stop, Stop::Boxes, "{}", before.boxes);
         let whole = if is_hopeless { before.clone() } else { begin(4000) };
@@ -371,9 +368,10 @@ fn a_known_tolerance_is_improved() {
     let scheme = Scheme::common(&[Kind::LegLength]);
     let cancel = AtomicBool::new(false);
     let mut control = Control { cancel: &cancel, progress: &mut |_| {} };
-    let mut found = |gap, known, deadline| {
+    let mut found = |gap, ends, deadline| {
         let budget = Budget { max_boxes: 2_000, deadline };
-        widest(&claim, &scheme, gap, (known, None), budget, &mut control).expect("an answer")
+        let known = Known { ends, ..Known::default() };
+        widest(&claim, &scheme, gap, known, budget, &mut control).expect("an answer")
     };
     let none = found(0.01, Bracket::default(), Some(std::time::Instant::now()));
     assert!(none.out_of_time && none.certified.is_none());
@@ -388,4 +386,41 @@ fn a_known_tolerance_is_improved() {
     assert!(value(&second.certified) > value(&first.certified));
     let third = found(0.01, second.clone(), Some(std::time::Instant::now()));
     assert!(third.out_of_time && value(&third.certified) == value(&second.certified));
+}
+
+/// Where no narrower proof is found, an extreme is enclosed by the claim's own bound, if it has a rational one that holds.
+#[test]
+fn an_extreme_may_be_enclosed_by_its_own_bound() {
+    let cancel = AtomicBool::new(false);
+    let mut control = Control { cancel: &cancel, progress: &mut |_| {} };
+    let budget = Budget { max_boxes: 5_000, deadline: None };
+    let mut outer = |require: &[Requirement], stem: &str| {
+        let claim = MachineClaim { require: require.to_vec(), ..linear_delta(SLAB) };
+        let all = Extreme::of(&claim, 3);
+        let own = all.iter().find(|one| one.file_stem() == stem).expect("an extreme");
+        let found = as_required(&claim, own, budget, &mut control).ok()?;
+        assert!(found.refuted.is_some());
+        if stem == "conditioning" {
+            let width = ((&found.outer - &found.inner) / &found.inner).to_f64()?;
+            assert!((found.width.to_f64()? / width - 1.0).abs() < 0.05);
+        }
+        found.outer.to_f64()
+    };
+    let exactly = |x: &str| Expression::try_from(x.to_owned()).expect("a number");
+    let conditioning = |x: &str| require("conditioning", Bound::Max(exactly(x)));
+    let both = [conditioning("5"), conditioning("4")];
+    assert_eq!(outer(&both, "conditioning"), Some(4.0));
+    for none in ["sqrt(17)", "1.01"] {
+        assert_eq!(outer(&[conditioning(none)], "conditioning"), None, "{none}");
+    }
+    assert_eq!(outer(&both, "parallel-margin"), None);
+    let range = Bound::Within(["-400", "400"].map(exactly));
+    let of_leg_2 = [Requirement { leg: Some(2), ..require("joint_range", range) }];
+    assert_eq!(outer(&of_leg_2, "rho-2-least"), Some(-400.0));
+    assert_eq!(outer(&of_leg_2, "rho-2-greatest"), Some(400.0));
+    assert_eq!(outer(&of_leg_2, "rho-1-greatest"), None);
+    // Of a unit of tool speed it is the sixtieth part.
+    let given = [("tool".to_owned(), vec![exactly("60")])].into();
+    let speed = [Requirement { given, ..require("joint_speed", Bound::Max(exactly("180"))) }];
+    assert_eq!(outer(&speed, "joint-speed"), Some(3.0));
 }

@@ -1,7 +1,8 @@
 //! What is reported of the kernel's claims, for people and for scripts.
 
+use super::extremes::of_file;
 use super::*;
-use crate::report::{text, Report};
+use crate::report::{text, Report, Row};
 use std::time::Duration;
 
 fn report(claim: &MachineClaim, boxes: usize) -> Report {
@@ -71,4 +72,53 @@ fn an_undecided_claim() {
     let text = text::report(&report, text::Style::Plain, true);
     assert!(text.starts_with("UNDECIDED"), "{text}");
     assert!(text.contains("the budget of 10 boxes is used up"), "{text}");
+}
+
+/// Every row of the paper's cube has its value: its other bounds are of the same cube.
+#[test]
+fn values_on_the_papers_cube() {
+    let report = report(&of_file("orthoglide-cube-all"), 1000);
+    let row = |name: &str| report.requirements.iter().find(|row| row.requirement == name);
+    let value = |name: &str| row(name).expect("a row").worst_found.expect("a value");
+    assert!(report.requirements.iter().all(|row| row.worst_found.is_some()));
+    // At Q2.
+    assert!((value("parallel margin") - 2f64.sqrt() / 27f64.sqrt()).abs() < 1e-9);
+}
+
+/// What a joint has to hold is greatest at one place, whatever its bound is; a determinant less a far bound times another
+/// is least elsewhere, where it is 63.8 in place of 97.4.
+#[test]
+fn the_worst_load_does_not_depend_on_its_bound() {
+    let mut claim = linear_delta(SLAB);
+    let force = ["30", "0", "-100"].map(|x| Expression::try_from(x.to_owned()).expect("a number"));
+    let found = [150.0, 1e4].map(|bound| {
+        let given = [("force".to_owned(), force.to_vec())].into();
+        claim.require = vec![Requirement { given, ..require("load", Bound::Max(decimal(bound))) }];
+        let rows = report(&claim, 1000).requirements;
+        let loads = rows.iter().filter(|row| row.requirement.starts_with("load"));
+        loads.filter_map(|row| row.worst_found).fold(0.0, f64::max)
+    });
+    assert!(found[0] > 50.0 && (found[0] - found[1]).abs() < 1e-6 * found[0], "{found:?}");
+}
+
+/// Of legs of which one is longer, the angle of the other may be the greater: margins of squares are of the length.
+#[test]
+fn of_what_is_demanded_of_all_legs_the_worst_value_is_shown() {
+    let row = |value, margin, relation| Row {
+        requirement: "leg angle 1".to_owned(),
+        of_all: Some("leg angle".to_owned()),
+        margin,
+        unit: Some("deg"),
+        relation,
+        bound_text: format!("{relation} 45"),
+        bound: format!("{relation} 45"),
+        worst_found: value,
+        at: Vec::new(),
+        machine: Vec::new(),
+        seems_violated: false,
+    };
+    assert!(row(Some(25.0), 9.0, "<=").is_worse_than(&row(Some(24.0), 8.0, "<=")));
+    assert!(!row(Some(25.0), 9.0, ">=").is_worse_than(&row(Some(24.0), 8.0, ">=")));
+    assert!(row(None, -1e3, "<=").is_worse_than(&row(Some(24.0), 8.0, "<=")));
+    assert!(row(Some(0.0), 8.0, "in").is_worse_than(&row(Some(9.0), 9.0, "in")));
 }

@@ -2,6 +2,7 @@
 
 use super::*;
 use orthocert_kernel::certificate::{Evidence, Step};
+use orthocert_kernel::claim::{Leg, Mechanism, Turning};
 
 #[test]
 fn leaves() {
@@ -250,9 +251,6 @@ fn budgets_end_a_search() {
     let Answer::Undecided(undecided) = found.answer else { panic!("undecided") };
     assert_eq!((found.boxes, undecided.stop), (10, Stop::Boxes));
     assert!(undecided.open.len() > 1);
-    // What is open and what is closed make up the root.
-    let share = |open: &Open| (-f64::from(open.depth)).exp2();
-    assert!(undecided.open.iter().map(share).sum::<f64>() <= 1.0);
 }
 
 #[test]
@@ -265,11 +263,10 @@ fn deadlines_and_cancellation_leave_everything_open() {
         let cancel = AtomicBool::new(cancelled);
         let mut control = Control { cancel: &cancel, progress: &mut |_| {} };
         let budget = Budget { max_boxes: 1000, deadline };
-        let whole = Branch::whole(&prover);
-        let found = search(&prover, &whole, Ends::default(), budget, &mut control);
-        let Outcome { waiting, boxes, stop: found, .. } = found.expect("the root");
-        assert_eq!((found, boxes), (stop, 0));
-        assert_eq!(waiting, [(0, whole)]);
+        let found = search(&prover, Ends::default(), budget, &mut control);
+        assert_eq!((found.stop, found.boxes), (stop, 0));
+        let open = (0..problem.obligations.len()).collect();
+        assert_eq!(found.waiting, [(0, Branch { path: Vec::new(), open })]);
     }
 }
 
@@ -322,7 +319,8 @@ fn ties_are_not_refuted() {
     claim.require = vec![require("joint_range", Bound::Max(bound))];
     let answer = with_boxes(&claim, 1000).answer;
     let Answer::Undecided(undecided) = answer else { panic!("{answer:?}") };
-    assert!(undecided.open.iter().all(|open| open.obligations == [1]));
+    // In doubles it seems to hold.
+    assert!(undecided.objection.is_some() && undecided.open.is_empty());
 }
 
 /// With one `mu` for all machines it takes 2.226; the greatest of one machine is 2.18754, at a corner with two least singular values.
@@ -350,4 +348,22 @@ fn a_condition_number_is_of_one_machine_at_a_time() {
         assert_eq!((tree.nodes.len(), weights.len()), (1, 3), "{bound}");
     }
     assert!(proved("2.1875").is_err());
+}
+
+/// Of a platform that turns in space: an arm within a sixth of its length, in three boxes, where boxes of the workspace alone
+/// are hopeless, which was seen from 16 million on.
+#[test]
+fn a_wide_tolerance_of_a_platform_that_turns_is_halved() {
+    let mut claim = super::extremes::of_file("kernel/hexa-type");
+    claim.workspace = serde_json::from_str(
+        r#"{"box":{"min":["-0.001","-0.001","-0.601"],"max":["0.001","0.001","-0.6"]}}"#,
+    )
+    .expect("a workspace");
+    claim.orientation = Some(serde_json::from_str(r#"{"angle":"0.01"}"#).expect("an orientation"));
+    let Mechanism::Spatial(Turning { legs, .. }) = &mut claim.mechanism else { panic!("spatial") };
+    let Leg::Arm { arm, .. } = &mut legs[0] else { panic!("an arm") };
+    *arm = serde_json::from_str(r#"{"min":"0.25","max":"0.35"}"#).expect("a tolerance");
+    let found = with_boxes(&claim, 1000);
+    let Answer::Decided { accepted, .. } = found.answer else { panic!("undecided") };
+    assert_eq!((accepted.verdict, accepted.size.leaves), (Verdict::Certified, 2));
 }
