@@ -41,7 +41,7 @@ pub fn prove(
     }
     let boxes = growing.nodes.len();
     let tree = Tree { precision: BITS, chords: None, nodes: growing.nodes };
-    let answer = confirmed(Claim::Postulate(claim.clone()), tree, PRECISIONS);
+    let answer = confirmed(Claim::Postulate(claim.clone()), tree, PRECISIONS).into();
     Ok(Verification { answer, worst: Vec::new(), boxes })
 }
 

@@ -38,8 +38,8 @@ impl Question {
         }
     }
 
-    /// The ends; with little time, of which it has the third part, first what the design itself says, where nothing narrower
-    /// is proved at last.
+    /// The ends. With a limit of time the design's own bound is tried first, in a third of it; without one, where nothing
+    /// narrower is proved.
     fn ends(
         &self,
         (claim, relative): (&kernel::MachineClaim, &BigRational),

@@ -4,7 +4,7 @@ use crate::questions::frontier::NoAnswer;
 use crate::search::solver::doubles::{middle, Pair};
 use crate::search::solver::fails::Failing;
 use crate::search::solver::search::{search, Boxes, Cell, Ends, Trial};
-use crate::search::solver::{approximate, confirmed, Answer, PRECISIONS};
+use crate::search::solver::{approximate, confirmed, PRECISIONS};
 use crate::search::{Budget, Control, Stop};
 use orthocert_checker::certificate::Certificate;
 use orthocert_kernel::certificate::{Claim, Node, Tree};
@@ -85,8 +85,5 @@ pub fn exclude(
     let claim = NoCubeClaim { machine: claim.clone(), side: side.clone() };
     let tree = Tree { precision: IN_WORDS, chords: None, nodes: found.nodes };
     let precisions = [IN_WORDS].into_iter().chain(PRECISIONS);
-    match confirmed(Claim::NoCube(claim), tree, precisions) {
-        Answer::Decided { certificate, .. } => Ok(Some(certificate)),
-        _ => Ok(None),
-    }
+    Ok(confirmed(Claim::NoCube(claim), tree, precisions).ok().map(|(certificate, _)| certificate))
 }

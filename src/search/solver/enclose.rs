@@ -434,7 +434,7 @@ fn certify(
     if begun.is_none() && holds_there {
         match ways.few(control) {
             Ok(found) => {
-                if let Answer::Decided { certificate, .. } = accepted(claim, &prover, found.nodes) {
+                if let Ok((certificate, _)) = accepted(claim, &prover, found.nodes) {
                     return Ok(Attempt::Certified(certificate, found.boxes));
                 }
             }
@@ -451,7 +451,7 @@ fn certify(
     };
     let is_hopeless =
         |found: &Option<Outcome>| found.as_ref().is_none_or(|found| found.stop == Stop::Hopeless);
-    if is_hopeless(&found) && problem.derived.is_some() && prover.holds_next_to(&point, true) {
+    if is_hopeless(&found) {
         found = ways.apart(FEW_APART, control).or(found);
     }
     if is_hopeless(&found) && problem.orientation.len() <= 1 {
@@ -472,11 +472,11 @@ fn certify(
     }
     if found.is_proof() {
         return Ok(match accepted(claim, &prover, found.nodes) {
-            Answer::Decided { certificate, .. } => Attempt::Certified(certificate, found.boxes),
-            Answer::Undecided(_) | Answer::Cancelled if begun.take().is_some() => {
+            Ok((certificate, _)) => Attempt::Certified(certificate, found.boxes),
+            Err(_) if begun.take().is_some() => {
                 return certify(claim, known, extreme, (begun, is_loosest), budget, control);
             }
-            Answer::Undecided(_) | Answer::Cancelled => Attempt::Undecided(Stop::Hopeless),
+            Err(_) => Attempt::Undecided(Stop::Hopeless),
         });
     }
     let place = sampler.centre();
@@ -515,8 +515,6 @@ fn refute(claim: &MachineClaim, place: &Place) -> Option<Box<Certificate>> {
         .map(|quality| (sampler.margin(quality, &values), quality))
         .min_by(|a, b| a.0.total_cmp(&b.0))?;
     let found = Worst { quality: worst.1, place: place.clone(), margin: worst.0 };
-    match refuted(claim, witness_at(claim, &problem, &sampler, &found)?) {
-        Answer::Decided { certificate, .. } => Some(certificate),
-        Answer::Undecided(_) | Answer::Cancelled => None,
-    }
+    let witness = witness_at(claim, &problem, &sampler, &found)?;
+    refuted(claim, witness).ok().map(|(certificate, _)| certificate)
 }

@@ -114,6 +114,20 @@ pub enum Answer {
     Cancelled,
 }
 
+/// A certificate that the exact checker has accepted, and what the checker says of it.
+pub(crate) type Confirmed = (Box<Certificate>, Accepted);
+
+impl From<Result<Confirmed, Option<Rejected>>> for Answer {
+    fn from(found: Result<Confirmed, Option<Rejected>>) -> Self {
+        match found {
+            Ok((certificate, accepted)) => Answer::Decided { certificate, accepted },
+            Err(objection) => {
+                Answer::Undecided(Undecided { open: Vec::new(), stop: Stop::Exhausted, objection })
+            }
+        }
+    }
+}
+
 /// What remains of an undecided claim.
 #[derive(Clone, Debug)]
 pub struct Undecided {
@@ -149,7 +163,7 @@ pub fn verify(
     let sampler = Sampler::new(claim, &problem)?;
     let mut worst = sampler.worst_values(FINEST);
     if let Some(witness) = on_the_spot(claim, &problem, &sampler, &worst) {
-        return Ok(Verification { answer: refuted(claim, witness), worst, boxes: 0 });
+        return Ok(Verification { answer: refuted(claim, witness).into(), worst, boxes: 0 });
     }
     let [ranges, rest, checks] = parts_of(&problem);
     let tighter = tighter(claim).map(|claim| Problem::new(&claim)).transpose()?;
@@ -164,8 +178,8 @@ pub fn verify(
     let ways = Ways::new(&prover, (&points, MOST_APART), budget);
     let search = |control: &mut Control<'_>| {
         // Of platforms that turn it takes millions of boxes to come where they are hopeless. Half of the time is for those.
-        let turns = searched.derived.is_some() && !searched.orientation.is_empty();
-        if turns && !ways.holds(false) {
+        let is_turned = searched.derived.is_some() && !searched.orientation.is_empty();
+        if is_turned && !ways.holds(false) {
             let ways = Ways::new(&prover, (&points, MOST_APART), budget.shared(2));
             let found = control.part([0.0, 0.5], |control| ways.apart_or_in_parts(control));
             if let Some(found) = found {
@@ -186,12 +200,12 @@ pub fn verify(
     }
     if found.is_proof() {
         let (nodes, more) = fewer(&prover, found.nodes, control.cancel);
-        let answer = control.part(checks, |_| accepted(claim, &prover, nodes));
+        let answer = control.part(checks, |_| accepted(claim, &prover, nodes)).into();
         return Ok(Verification { answer, worst, boxes: boxes + more });
     }
     look_into(&sampler, &found.open, OPEN_CENTRES, &mut worst);
     let answer = match refute::refutation(claim, &problem, &sampler, &worst) {
-        Some(witness) => refuted(claim, witness),
+        Some(witness) => refuted(claim, witness).into(),
         None => {
             Answer::Undecided(Undecided { open: found.open, stop: found.stop, objection: None })
         }
@@ -285,7 +299,7 @@ pub fn concluded(
     let worst = Sampler::new(claim, &problem)?.worst_values(FINEST);
     let prover = Prover::new(&problem)?;
     let (nodes, more) = fewer(&prover, nodes, &AtomicBool::new(false));
-    let answer = accepted(claim, &prover, nodes);
+    let answer = accepted(claim, &prover, nodes).into();
     Ok(Verification { answer, worst, boxes: boxes + more })
 }
 
@@ -338,10 +352,8 @@ pub fn proof_about(
     };
     let found = found.or_else(|| control.part(rest, search)).ok_or(Stop::Hopeless)?;
     let nodes = found.proof()?;
-    match control.part(checks, |_| accepted(claim, &prover, nodes)) {
-        Answer::Decided { certificate, .. } => Ok(certificate),
-        Answer::Undecided(_) | Answer::Cancelled => Err(Stop::Exhausted),
-    }
+    let found = control.part(checks, |_| accepted(claim, &prover, nodes));
+    found.map(|(certificate, _)| certificate).map_err(|_| Stop::Exhausted)
 }
 
 /// The problem of a claim whose tree is grown in parts, the same for all of them.
@@ -392,13 +404,9 @@ fn refutation_at(
     let problem = Problem::new(claim).ok()?;
     let sampler = Sampler::new(claim, &problem).ok()?;
     let worst = sample(&sampler);
-    let certificate = refute::refutation(claim, &problem, &sampler, &worst).and_then(|witness| {
-        match refuted(claim, witness) {
-            Answer::Decided { certificate, .. } => Some(certificate),
-            Answer::Undecided(_) | Answer::Cancelled => None,
-        }
-    });
-    Some((certificate, worst))
+    let witness = refute::refutation(claim, &problem, &sampler, &worst);
+    let found = witness.and_then(|witness| refuted(claim, witness).ok());
+    Some((found.map(|(certificate, _)| certificate), worst))
 }
 
 /// The worst values of a claim's obligations that sampling finds.
@@ -446,18 +454,22 @@ pub(crate) fn tree(
 }
 
 /// The certificate of a proof.
-fn accepted(claim: &MachineClaim, prover: &Prover<'_>, nodes: Vec<Node>) -> Answer {
+fn accepted(
+    claim: &MachineClaim,
+    prover: &Prover<'_>,
+    nodes: Vec<Node>,
+) -> Result<Confirmed, Option<Rejected>> {
     let tree = Tree { precision: PRECISIONS[0], chords: prover.chords.clone(), nodes };
     let precisions = precisions(prover, &tree);
     confirmed(Claim::Machine(claim.clone()), tree, precisions)
 }
 
-/// The certificate of a tree, at the first of the precisions at which the checker accepts it.
+/// The certificate of a tree, at the first of the precisions at which the checker accepts it; else its last objection.
 pub(crate) fn confirmed(
     claim: Claim,
     tree: Tree,
     precisions: impl IntoIterator<Item = u32>,
-) -> Answer {
+) -> Result<Confirmed, Option<Rejected>> {
     let mut objection = None;
     let proof = Proof::Tree(tree);
     let mut whole = certificate(claim, Verdict::Certified, proof);
@@ -466,11 +478,11 @@ pub(crate) fn confirmed(
             tree.precision = bits;
         }
         match check(&whole) {
-            Ok(accepted) => return Answer::Decided { certificate: Box::new(whole), accepted },
+            Ok(accepted) => return Ok((Box::new(whole), accepted)),
             Err(reason) => objection = Some(reason),
         }
     }
-    Answer::Undecided(Undecided { open: Vec::new(), stop: Stop::Exhausted, objection })
+    Err(objection)
 }
 
 /// A certificate by this program.
@@ -488,16 +500,12 @@ pub(crate) fn certificate(claim: Claim, verdict: Verdict, proof: Proof) -> Certi
 }
 
 /// The refutation by a witness, once the checker has accepted it.
-fn refuted(claim: &MachineClaim, witness: Witness) -> Answer {
+fn refuted(claim: &MachineClaim, witness: Witness) -> Result<Confirmed, Option<Rejected>> {
     let proof = Proof::Witness(witness);
     let certificate = certificate(Claim::Machine(claim.clone()), Verdict::Refuted, proof);
     match check(&certificate) {
-        Ok(accepted) => Answer::Decided { certificate: Box::new(certificate), accepted },
-        Err(objection) => Answer::Undecided(Undecided {
-            open: Vec::new(),
-            stop: Stop::Exhausted,
-            objection: Some(objection),
-        }),
+        Ok(accepted) => Ok((Box::new(certificate), accepted)),
+        Err(objection) => Err(Some(objection)),
     }
 }
 

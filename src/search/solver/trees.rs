@@ -18,9 +18,9 @@ use crate::search::{Budget, Control, Stop};
 use orthocert_kernel::problem::Problem;
 use std::cell::Cell;
 
-/// Boxes after which tolerances are taken apart: certificates in ranges are shorter. Of platforms that turn, and of
-/// others.
-const MOST_IN_RANGES: [usize; 2] = [8, 2000];
+/// Boxes after which tolerances are taken apart: certificates in ranges are shorter. The second number is of platforms that
+/// turn.
+const MOST_IN_RANGES: [usize; 2] = [2000, 8];
 /// Boxes of one level with tolerances in parts.
 const MOST_ABREAST: usize = 4096;
 /// Boxes after which directions, and what quantities change together, are looked at.
@@ -54,7 +54,7 @@ pub(super) fn in_ranges(
     if derived.derived.is_none() {
         return Err(Box::new(derived));
     }
-    let most = MOST_IN_RANGES[usize::from(problem.orientation.is_empty())];
+    let most = MOST_IN_RANGES[usize::from(!problem.orientation.is_empty())];
     let found = Prover::new(problem)
         .map(|prover| Ways::new(&prover, (&[], 0), budget.at_most(most)).boxes(true, control));
     // Second derivatives are for what ranges do not show.
