@@ -4,6 +4,7 @@ use super::{print, Failure};
 use crate::design::{may_be_tolerance, Design};
 use crate::exact::Exact;
 use crate::files::open::reader;
+use crate::files::output;
 use crate::files::read::{meant, read, Named};
 use num_rational::BigRational;
 use orthocert_checker::certificate::MOST_BYTES;
@@ -148,8 +149,14 @@ pub fn apart(output: &Path, inputs: &[PathBuf]) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Refuses a folder of certificates in which one might take the place of the design.
-pub fn apart_in(folder: &Path, design: &Path) -> Result<(), Failure> {
+/// Refuses a folder into which certificates, one of this name, cannot be written, or in which one might take the place of
+/// the design.
+pub fn probe_in(folder: &Path, name: &str, design: Option<&Path>) -> Result<(), Failure> {
+    output::probe(&folder.join(name))?;
+    design.map_or(Ok(()), |design| apart_in(folder, design))
+}
+
+fn apart_in(folder: &Path, design: &Path) -> Result<(), Failure> {
     let is_certificate = design.to_string_lossy().ends_with(".cert.json");
     match design.file_name().filter(|_| is_certificate) {
         Some(name) => apart(&folder.join(name), &[design.to_owned()]),

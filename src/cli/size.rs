@@ -5,7 +5,6 @@ use super::{effort, input, interrupt, print, Failure, Format, Status};
 use crate::design::Design;
 use crate::exact::decimal::{exact, outward, readable, rounded, Toward};
 use crate::exact::Exact;
-use crate::files::output;
 use crate::questions::frontier::{Bracket, Certified, NoAnswer};
 use crate::questions::size::{is_side, Family, Scope, Unknown};
 use crate::report::text::{duration, labelled, verbatim, wrap};
@@ -98,8 +97,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let design = input::design(arguments.design.as_deref(), effort.quiet)?;
     let claim = &design.claim;
     if let Some(folder) = &arguments.output {
-        output::probe(&folder.join("size.cert.json"))?;
-        arguments.design.as_deref().map_or(Ok(()), |design| input::apart_in(folder, design))?;
+        input::probe_in(folder, "size.cert.json", arguments.design.as_deref())?;
     }
     effort.start_threads()?;
     let budget = effort.budget_or(BOXES, started)?;

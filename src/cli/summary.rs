@@ -95,8 +95,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         summary(claim, &found, &question, of_widths, started, control)
     });
     drop(bar);
-    let summary = summary.map_err(Failure::from)?;
-    let mut summary = summary.ok_or_else(Failure::too_large)?;
+    let mut summary = summary?.ok_or_else(Failure::too_large)?;
     summary.title.clone_from(&design.title);
     summary.length_unit = design.unit;
     summary.design = arguments.design.as_ref().map(|path| path.to_string_lossy().into_owned());

@@ -34,12 +34,9 @@ impl Budget {
 
     /// Until the deadline, the time of the first of so many tasks.
     pub fn shared(self, tasks: usize) -> Self {
-        let now = Instant::now();
-        let share = |end: Instant| {
-            let tasks = u32::try_from(tasks).unwrap_or(u32::MAX).max(1);
-            now + end.saturating_duration_since(now) / tasks
-        };
-        Budget { deadline: self.deadline.map(share), ..self }
+        let tasks = u32::try_from(tasks).unwrap_or(u32::MAX).max(1);
+        let share = |left: Duration| Instant::now() + left / tasks;
+        Budget { deadline: self.left().map(share), ..self }
     }
 
     /// The time until the deadline.

@@ -11,7 +11,6 @@ mod search;
 mod text;
 
 use super::{effort, input, interrupt, print, Failure, Format, Status};
-use crate::files::output;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -43,8 +42,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let relative = input::rational_within("--relative", &arguments.relative, ["1e-12", "0.1"])?;
     let design = input::design(arguments.design.as_deref(), effort.quiet)?;
     if let Some(folder) = &arguments.output {
-        output::probe(&folder.join("bounds.cert.json"))?;
-        arguments.design.as_deref().map_or(Ok(()), |design| input::apart_in(folder, design))?;
+        input::probe_in(folder, "bounds.cert.json", arguments.design.as_deref())?;
     }
     effort.start_threads()?;
     let claim = &design.claim;

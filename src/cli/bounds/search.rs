@@ -3,7 +3,7 @@
 use super::rows::{exact_rows, Row};
 use super::Arguments;
 use crate::cli::{interrupt, Failure};
-use crate::search::solver::enclose::{as_required, enclose, is_singular, Enclosed, NotEnclosed};
+use crate::search::solver::enclose::{is_singular, Enclosed, NotEnclosed, Sought};
 use crate::search::solver::extremes::Extreme;
 use crate::search::solver::sector;
 use crate::search::{turns, Budget, Control};
@@ -21,6 +21,14 @@ enum Question {
 }
 
 impl Question {
+    /// In a few words.
+    fn name(&self) -> String {
+        match self {
+            Question::Extreme(extreme) => format!("{} {}", extreme.end(), extreme.name()),
+            Question::Angle(leg) => format!("rho_{}", leg + 1),
+        }
+    }
+
     /// A row for each end, and what the names of its files begin with.
     fn rows(&self, claim: &kernel::MachineClaim, angular: bool) -> Vec<(Row, String)> {
         match self {
@@ -49,22 +57,19 @@ impl Question {
     ) -> Vec<Ended> {
         match self {
             Question::Extreme(extreme) => {
-                let required = |budget: Budget, control: &mut Control<'_>| {
-                    as_required(claim, extreme, budget, control).ok()
+                let sought = match Sought::new(claim, extreme) {
+                    Ok(sought) => sought,
+                    Err(error) => return vec![Err(error)],
                 };
-                let is_short = budget.deadline.is_some();
-                let loose = (is_first && is_short).then(|| required(budget.shared(3), control));
-                let found = enclose(claim, extreme, relative, budget, control);
-                let loose = match (&found, loose) {
-                    (_, Some(loose)) => loose,
-                    (Err(NotEnclosed::Undecided), None) if !is_short => required(budget, control),
-                    _ => None,
-                };
-                vec![match (found, loose) {
-                    (Ok(found), Some(loose)) if loose.width < found.width => Ok(loose),
-                    (Err(_), Some(loose)) => Ok(loose),
-                    (found, _) => found,
-                }]
+                let (mut own, has_limit) = (Vec::new(), budget.deadline.is_some());
+                if is_first && has_limit {
+                    own.push(sought.as_required(budget.shared(3), control));
+                }
+                let found = sought.enclose(relative, budget, control);
+                if !has_limit && matches!(found, Err(NotEnclosed::Undecided)) {
+                    own.push(sought.as_required(budget, control));
+                }
+                narrower(own, vec![found])
             }
             Question::Angle(leg) => match sector::enclose(claim, *leg, relative, budget, control) {
                 Ok(sector) => sector.into_ends().into(),
@@ -125,18 +130,10 @@ pub(super) fn rows(
         questions.chain(turning.map(|(leg, _)| Question::Angle(leg))).collect();
     let mut bar = arguments.effort.bar();
     let singular = bar
-        .run("singularities", questions.len() + 1, |control| is_singular(claim, budget, control))
-        .map_err(Failure::from)?;
+        .run("singularities", questions.len() + 1, |control| is_singular(claim, budget, control))?;
     let count = questions.len();
     let asked = |(number, question): (usize, Question)| {
-        let of = match &question {
-            Question::Extreme(extreme) => {
-                let row = Row::of(claim, extreme, angular);
-                format!("{} {}", row.end, row.name)
-            }
-            Question::Angle(leg) => format!("rho_{}", leg + 1),
-        };
-        let name = format!("{} of {count}, {of}", number + 1);
+        let name = format!("{} of {count}, {}", number + 1, question.name());
         Asked { question, name, ends: Vec::new(), had: Duration::ZERO, rows: None }
     };
     let mut all: Vec<Asked> = questions.into_iter().enumerate().map(asked).collect();

@@ -12,7 +12,6 @@ use super::size::gap;
 use super::{effort, input, interrupt, print, Failure, Format, Status};
 use crate::design::Design;
 use crate::exact::decimal::exact;
-use crate::files::output;
 use crate::questions::tolerance::{legs_of, Kind, Scheme};
 use crate::report::counterexample;
 use crate::search::solver::{proof, refutation};
@@ -69,8 +68,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let claim = &design.claim;
     let kinds = named(&arguments.on, &design)?;
     if let Some(folder) = &arguments.output {
-        output::probe(&folder.join("tolerance.cert.json"))?;
-        input::apart_in(folder, &arguments.design)?;
+        input::probe_in(folder, "tolerance.cert.json", Some(&arguments.design))?;
     }
     let each = arguments.each.as_deref().map(|text| effort::time("--each", text)).transpose()?;
     let budget = effort.budget(started)?;

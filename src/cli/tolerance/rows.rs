@@ -116,7 +116,7 @@ impl Question<'_> {
         let after = turns(usize::from(mixed(kinds))) + of_legs;
         let mut all = schemes(kinds);
         let every: Vec<usize> = (0..all.len()).collect();
-        let time = self.budget.deadline.map(|end| end.saturating_duration_since(Instant::now()));
+        let time = self.budget.left();
         self.search(bar, (&mut all, &every), Time { budget: self.budget, after, halves: false })?;
         // What time the others left, but for that of those after them, is for those whose time was up, first for those of
         // which least is known: half of what is left each, for what is not proved in as much as before wants more.

@@ -96,8 +96,7 @@ pub fn is_singular(
     }
 }
 
-/// Encloses an extreme to the relative width `relative`, or where that does not succeed to a looser
-/// one, up to eight times [`loosest`] (for joint coordinates: relative to the greatest size that they take).
+/// Encloses an extreme: see [`Sought::enclose`].
 ///
 /// # Errors
 /// See [`NotEnclosed`].
@@ -111,68 +110,101 @@ pub fn enclose(
     if control.is_cancelled() {
         return Err(NotEnclosed::Cancelled);
     }
-    let probe = extreme.probe(claim).ok_or(NotEnclosed::Undecided)?;
-    let budget = of_one_width(budget, &Problem::new(&probe)?);
-    let mut known = Found::worst(&probe, extreme, ROUNDS)?;
-    let (mut steps, mut begun) = (Steps::default(), None);
-    let found = narrowest(relative, budget.deadline.is_some(), |width| {
-        for _ in 0..ROUNDS {
-            let step = width * known.size()?;
-            let outer = end(extreme, known.value, &step, 2).ok_or(NotEnclosed::Undecided)?;
-            // So far out there may be no bound: of an angle, 90 degrees.
-            let Some(outer_claim) = extreme.well_formed(claim, &outer) else { break };
-            let is_loosest = *width >= loosest();
-            let found = steps.next(control, 2, |control| {
-                let how = (&mut begun, is_loosest);
-                certify(&outer_claim, &mut known, extreme, how, budget, control)
-            });
-            let (certified, boxes) = match found? {
-                Attempt::Certified(certified, boxes) => (certified, boxes),
-                Attempt::Worse => continue,
-                Attempt::Undecided(Stop::Time) => return Err(NotEnclosed::Time),
-                Attempt::Undecided(_) => break,
-            };
-            // What is too near to its bound to be refuted may not be at a looser width.
-            let Some(found) = inner_end(claim, extreme, &known, [relative, width])? else { break };
-            let width = (width + width + found.width) / BigRational::from_integer(3.into());
-            let Inner { value: inner, refuted, .. } = found;
-            return Ok(Some(Enclosed { width, inner, outer, refuted, certified, boxes }));
-        }
-        Ok(None)
-    });
-    found?.ok_or(NotEnclosed::Undecided)
+    Sought::new(claim, extreme)?.enclose(relative, budget, control)
 }
 
-/// Encloses an extreme by the bound that the claim itself has for it: for where no narrower one is proved.
-///
-/// # Errors
-/// See [`NotEnclosed`]; where the claim has none, it is not enclosed.
-pub fn as_required(
-    claim: &MachineClaim,
-    extreme: &Extreme,
-    budget: Budget,
-    control: &mut Control<'_>,
-) -> Result<Enclosed, NotEnclosed> {
-    let probe = extreme.probe(claim).ok_or(NotEnclosed::Undecided)?;
-    let budget = of_one_width(budget, &Problem::new(&probe)?);
-    let own = extreme.required_bound(claim).ok_or(NotEnclosed::Undecided)?;
-    let own_claim = extreme.well_formed(claim, &own).ok_or(NotEnclosed::Undecided)?;
-    let mut known = Found::worst(&probe, extreme, 1)?;
-    if budget.is_over() || own.to_f64().is_none_or(|own| !extreme.is_beyond(own, known.value)) {
-        return Err(NotEnclosed::Undecided);
+/// An extreme of a claim, and where sampling finds it.
+pub struct Sought<'a> {
+    claim: &'a MachineClaim,
+    extreme: &'a Extreme,
+    probe: Problem,
+    known: Found,
+}
+
+impl<'a> Sought<'a> {
+    /// By sampling.
+    ///
+    /// # Errors
+    /// See [`NotEnclosed`].
+    pub fn new(claim: &'a MachineClaim, extreme: &'a Extreme) -> Result<Self, NotEnclosed> {
+        let probe = extreme.probe(claim).ok_or(NotEnclosed::Undecided)?;
+        let known = Found::worst(&probe, extreme, ROUNDS)?;
+        Ok(Sought { claim, extreme, probe: Problem::new(&probe)?, known })
     }
-    let (certified, boxes) =
-        match certify(&own_claim, &mut known, extreme, (&mut None, true), budget, control)? {
-            Attempt::Certified(certified, boxes) => (certified, boxes),
-            Attempt::Undecided(Stop::Time) => return Err(NotEnclosed::Time),
-            Attempt::Undecided(_) | Attempt::Worse => return Err(NotEnclosed::Undecided),
-        };
-    let [narrowest, widest] = [(1, 1000), (1 << LOOSER, 10)]
-        .map(|(n, d): (i64, i64)| BigRational::new(n.into(), d.into()));
-    let inner = inner_end(claim, extreme, &known, [&narrowest, &widest])?;
-    let Inner { value: inner, refuted, .. } = inner.ok_or(NotEnclosed::Undecided)?;
-    let width = (&own - &inner).abs() / known.size()?;
-    Ok(Enclosed { width, inner, outer: own, refuted, certified, boxes })
+
+    /// Encloses it to the relative width `relative`, or where that does not succeed to a looser one, up to eight times
+    /// [`loosest`] (for joint coordinates: relative to the greatest size that they take).
+    ///
+    /// # Errors
+    /// See [`NotEnclosed`].
+    pub fn enclose(
+        &self,
+        relative: &BigRational,
+        budget: Budget,
+        control: &mut Control<'_>,
+    ) -> Result<Enclosed, NotEnclosed> {
+        let Sought { claim, extreme, probe, known } = self;
+        let (budget, mut known) = (of_one_width(budget, probe), known.clone());
+        let (mut steps, mut begun) = (Steps::default(), None);
+        let found = narrowest(relative, budget.deadline.is_some(), |width| {
+            for _ in 0..ROUNDS {
+                let step = width * known.size()?;
+                let outer = end(extreme, known.value, &step, 2).ok_or(NotEnclosed::Undecided)?;
+                // So far out there may be no bound: of an angle, 90 degrees.
+                let Some(outer_claim) = extreme.well_formed(claim, &outer) else { break };
+                let is_loosest = *width >= loosest();
+                let found = steps.next(control, 2, |control| {
+                    let how = (&mut begun, is_loosest);
+                    certify(&outer_claim, &mut known, extreme, how, budget, control)
+                });
+                let (certified, boxes) = match found? {
+                    Attempt::Certified(certified, boxes) => (certified, boxes),
+                    Attempt::Worse => continue,
+                    Attempt::Undecided(Stop::Time) => return Err(NotEnclosed::Time),
+                    Attempt::Undecided(_) => break,
+                };
+                // What is too near to its bound to be refuted may not be at a looser width.
+                let Some(found) = inner_end(claim, extreme, &known, [relative, width])? else {
+                    break;
+                };
+                let width = (width + width + found.width) / BigRational::from_integer(3.into());
+                let Inner { value: inner, refuted, .. } = found;
+                return Ok(Some(Enclosed { width, inner, outer, refuted, certified, boxes }));
+            }
+            Ok(None)
+        });
+        found?.ok_or(NotEnclosed::Undecided)
+    }
+
+    /// Encloses it by the bound that the claim itself has for it: for where no narrower one is proved.
+    ///
+    /// # Errors
+    /// See [`NotEnclosed`]; where the claim has none, it is not enclosed.
+    pub fn as_required(
+        &self,
+        budget: Budget,
+        control: &mut Control<'_>,
+    ) -> Result<Enclosed, NotEnclosed> {
+        let Sought { claim, extreme, probe, known } = self;
+        let own = extreme.required_bound(claim).ok_or(NotEnclosed::Undecided)?;
+        let own_claim = extreme.well_formed(claim, &own).ok_or(NotEnclosed::Undecided)?;
+        if budget.is_over() || own.to_f64().is_none_or(|own| !extreme.is_beyond(own, known.value)) {
+            return Err(NotEnclosed::Undecided);
+        }
+        let (budget, mut known) = (of_one_width(budget, probe), known.clone());
+        let (certified, boxes) =
+            match certify(&own_claim, &mut known, extreme, (&mut None, true), budget, control)? {
+                Attempt::Certified(certified, boxes) => (certified, boxes),
+                Attempt::Undecided(Stop::Time) => return Err(NotEnclosed::Time),
+                Attempt::Undecided(_) | Attempt::Worse => return Err(NotEnclosed::Undecided),
+            };
+        let [narrowest, widest] = [(1, 1000), (1 << LOOSER, 10)]
+            .map(|(n, d): (i64, i64)| BigRational::new(n.into(), d.into()));
+        let inner = inner_end(claim, extreme, &known, [&narrowest, &widest])?;
+        let Inner { value: inner, refuted, .. } = inner.ok_or(NotEnclosed::Undecided)?;
+        let width = (&own - &inner).abs() / known.size()?;
+        Ok(Enclosed { width, inner, outer: own, refuted, certified, boxes })
+    }
 }
 
 /// What is found at the width `relative`, or else at the narrowest of its doubles up to [`loosest`], by halves of
@@ -290,6 +322,7 @@ fn turns_with_tolerances(problem: &Problem) -> bool {
 }
 
 /// The most extreme place known.
+#[derive(Clone)]
 struct Found {
     place: Place,
     value: f64,

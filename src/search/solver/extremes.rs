@@ -211,7 +211,7 @@ impl Extreme {
     /// What the files of its certificates begin with.
     pub fn file_stem(&self) -> String {
         let Requirement { quantity, .. } = &self.bounded.requirement;
-        let end = if self.is_greatest() { "greatest" } else { "least" };
+        let end = self.end();
         match (quantity.as_str(), self.bounded.leg) {
             ("accuracy", _) if self.bounded.angle => "accuracy-angle".to_owned(),
             ("transmission", _) => format!("psi-{end}"),
@@ -226,6 +226,15 @@ impl Extreme {
         match self.bounded.requirement.quantity.as_str() {
             "joint_speed" => angular.then_some("deg/length"),
             _ => self.bounded.unit(angular),
+        }
+    }
+
+    /// "least" or "greatest".
+    pub fn end(&self) -> &'static str {
+        if self.is_greatest() {
+            "greatest"
+        } else {
+            "least"
         }
     }
 

@@ -180,11 +180,10 @@ pub fn verify(
         // Of platforms that turn it takes millions of boxes to come where they are hopeless. Half of the time is for those.
         let is_turned = searched.derived.is_some() && !searched.orientation.is_empty();
         if is_turned && !ways.holds(false) {
-            let ways = Ways::new(&prover, (&points, MOST_APART), budget.shared(2));
-            let found = control.part([0.0, 0.5], |control| ways.apart_or_in_parts(control));
-            if let Some(found) = found {
-                return found;
-            }
+            let half = Ways::new(&prover, (&points, MOST_APART), budget.shared(2));
+            let found = control.part([0.0, 0.5], |control| half.apart_or_in_parts(control));
+            return found
+                .unwrap_or_else(|| control.part([0.5, 1.0], |control| ways.boxes(false, control)));
         }
         let found = ways.tree(searched.derived.is_some(), control);
         // What is open is looked for where nothing is given up.

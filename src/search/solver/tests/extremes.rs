@@ -6,7 +6,7 @@ use crate::design::Design;
 use crate::questions::frontier::Bracket;
 use crate::questions::tolerance::{widest, Kind, Known, Scheme};
 use crate::search::solver::enclose::{
-    as_required, enclose, is_singular, loosest, narrowest, Enclosed, NotEnclosed,
+    enclose, is_singular, loosest, narrowest, Enclosed, NotEnclosed, Sought,
 };
 use crate::search::solver::extremes::Extreme;
 use crate::search::solver::value::Bounded;
@@ -398,7 +398,7 @@ fn an_extreme_may_be_enclosed_by_its_own_bound() {
         let claim = MachineClaim { require: require.to_vec(), ..linear_delta(SLAB) };
         let all = Extreme::of(&claim, 3);
         let own = all.iter().find(|one| one.file_stem() == stem).expect("an extreme");
-        let found = as_required(&claim, own, budget, &mut control).ok()?;
+        let found = Sought::new(&claim, own).ok()?.as_required(budget, &mut control).ok()?;
         assert!(found.refuted.is_some());
         if stem == "conditioning" {
             let width = ((&found.outer - &found.inner) / &found.inner).to_f64()?;
