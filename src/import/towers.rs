@@ -3,10 +3,10 @@
 //! the platform.
 
 use super::toml::{least, polar, quoted, slider, Number};
+use crate::exact::decimal::terminating;
 use crate::exact::Exact;
-use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{Signed, ToPrimitive};
+use num_traits::ToPrimitive;
 use std::cmp::Ordering;
 
 /// A tower, its carriage and its rods.
@@ -41,6 +41,15 @@ impl Tower {
     }
 }
 
+/// The legs' tables; `None` unless each tower is nearer than its rods are long.
+pub(super) fn legs(towers: &[Tower]) -> Option<[String; 3]> {
+    let leg = |tower: &Tower| {
+        let short = tower.radius.value.compare(&tower.rod.value) == Some(Ordering::Less);
+        tower.leg().filter(|_| short)
+    };
+    towers.iter().map(leg).collect::<Option<Vec<_>>>()?.try_into().ok()
+}
+
 /// `a + b`, exactly.
 pub(super) fn sum(a: &Number, b: &Number) -> Option<Number> {
     written(&(a.value.as_rational()? + b.value.as_rational()?))
@@ -61,24 +70,7 @@ pub(super) fn lesser(a: Number, b: Number) -> Number {
 
 /// A rational number as a design writes it: as a decimal if it is one.
 pub(super) fn written(value: &BigRational) -> Option<Number> {
-    const MOST_PLACES: usize = 100;
-    let ten = BigRational::from_integer(BigInt::from(10));
-    let (mut scaled, mut places) = (value.clone(), 0);
-    while !scaled.is_integer() && places < MOST_PLACES {
-        scaled *= &ten;
-        places += 1;
-    }
-    let text = match scaled.is_integer() {
-        true => {
-            let digits = scaled.to_integer().abs().to_string();
-            let digits = format!("{digits:0>width$}", width = places + 1);
-            let (whole, part) = digits.split_at(digits.len() - places);
-            let sign = if value.is_negative() { "-" } else { "" };
-            let point = if places == 0 { "" } else { "." };
-            format!("{sign}{whole}{point}{part}")
-        }
-        false => format!("({value})"),
-    };
+    let text = terminating(value, 100).unwrap_or_else(|| format!("({value})"));
     let value = Exact::parse(&text, 1000).ok()?;
     Some(Number { text, value })
 }

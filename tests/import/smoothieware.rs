@@ -129,7 +129,7 @@ fn firmware(figures: &Figures<'_>) -> Box<dyn Firmware> {
             re: of("M665 C", "delta_re", 270.0),
             rf: of("M665 D", "delta_rf", 90.0),
             z_calc_offset: -(height - below),
-            mirrored: found.get("delta_mirror_xy").is_some_and(|value| value == "true"),
+            mirrored: found["delta_mirror_xy"] == "true",
         });
     }
     let rod = of("M665 L", "arm_length", 250.0);
@@ -142,7 +142,9 @@ fn firmware(figures: &Figures<'_>) -> Box<dyn Firmware> {
         [(radius + further) * angle.cos(), (radius + further) * angle.sin()]
     };
     let at = [tower(0), tower(1), tower(2)];
-    Box::new(Towers { at, rod2: [rod * rod; 3], forward: actuator_to_cartesian })
+    let trim = |i: usize| of(["M665 I", "M665 J", "M665 K"][i], &format!("arm{}_trim", i + 1), 0.0);
+    let rod2 = [0, 1, 2].map(|i| (rod + trim(i)).powi(2));
+    Box::new(Towers { at, rod2, forward: actuator_to_cartesian })
 }
 
 #[test]
@@ -178,7 +180,7 @@ fn settings_are_read_as_the_firmware_reads_them() {
         let Leg::Slider { anchor, length, .. } = &legs(&claim)[2] else { panic!("{claim:?}") };
         assert_eq!((&anchor[1], length), (&exactly("124"), &exactly("250")), "{config}");
     }
-    let imported = text("arm_solution rotary_delta\n").unwrap();
+    let imported = text("arm_solution rotary_delta\ndelta_mirror_xy false\n").unwrap();
     let told: Vec<String> = imported.defaults.iter().map(ToString::to_string).collect();
     let expected =
         "delta_e = 131.636, after src/modules/robot/arm_solutions/RotaryDeltaSolution.cpp";
@@ -228,6 +230,32 @@ fn soft_endstops_and_endstops_bound_the_workspace() {
     assert!(error.contains("soft_endstop.x_max = 50: not understood"), "{error}");
 }
 
+/// By `cartesian_to_actuator_offs` of LinearDeltaSolution.cpp: at its rod's length and its trim from the platform.
+#[test]
+fn rods_have_lengths_of_their_own() {
+    let trimmed = format!("{PLAIN}arm1_trim 2.5\narm2_trim -1.0\narm3_trim 7\n");
+    for (config, saved) in [
+        (trimmed.replace("arm3_trim 7", "arm3_trim 0.75"), ""),
+        (trimmed, "M665 L250.0 R124.0 A0 B0 C0 D0 E0 H0 I2.5 J-1.0 K0.75\n"),
+    ] {
+        let claim = claim(
+            &import(smoothieware, &[("config", &config), ("config-override", saved)]).unwrap(),
+        );
+        let lengths = legs(&claim).iter().map(|leg| match leg {
+            Leg::Slider { length, .. } => length.clone(),
+            other => panic!("{other:?}"),
+        });
+        let expected = ["252.5", "249", "250.75"].map(exactly);
+        assert_eq!(lengths.collect::<Vec<_>>(), expected, "{config} {saved}");
+    }
+    // What `LinearDeltaSolution::set_optional` makes of corrections that it does not find depends on its revision.
+    let config = format!("{PLAIN}arm2_trim 2.5\n");
+    let saved = "M665 L250.0 R124.0 A0 B0 C0 D0.3 E0 H0\n";
+    let mixed = import(smoothieware, &[("config", &config), ("config-override", saved)]);
+    let told = "config-override:1: M665 = no J, where arm2_trim is set: not understood";
+    assert!(mixed.unwrap_err().to_string().contains(told));
+}
+
 #[test]
 fn a_rotary_delta_has_its_arms() {
     for mirrored in [false, true] {
@@ -254,6 +282,8 @@ fn what_cannot_be_imported_is_refused() {
         ("delta_tower1_angle 500", "less than the rods' length"),
         ("delta_tower4_offset 1", "delta_tower4_offset = 1: not understood"),
         ("arm_width 3", "arm_width = 3: not understood"),
+        ("arm1_trim -250", "rods longer than 0"),
+        ("arm_solution rotary_delta", "delta_mirror_xy is not set"),
         ("alpha_trim -1", "alpha_trim = -1: not understood"),
     ] {
         let error = text(&format!("{PLAIN}{line}\n")).expect_err(line).to_string();

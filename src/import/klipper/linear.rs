@@ -1,7 +1,7 @@
 //! `kinematics: delta`, after klippy/kinematics/delta.py and klippy/stepper.py.
 
 use super::file::key;
-use super::{angles, of_steppers, volume, PRINTER, STEPPERS};
+use super::{angles, of_steppers, volume, ENDSTOP, PRINTER, STEPPERS};
 use crate::import::settings::Settings;
 use crate::import::toml::{least, less, polar, slider, Machine, Number, FACTORS};
 use crate::import::ImportError;
@@ -66,7 +66,7 @@ fn workspace(
     if value.sign() != Some(1) {
         return Err(settings.refused("delta_radius leaves the arms no radius to print in"));
     }
-    let ends = endstops(settings)?;
+    let ends = of_steppers(settings, "position_endstop", ENDSTOP, SOURCE)?;
     // The lowest of the heights at which a carriage is at its endstop right above the platform.
     let cones = ends.iter().zip(arms).map(|(end, Number { text: l, .. })| {
         format!("{}+sqrt({l}*{l}-{radius}*{radius})-{l}", end.text)
@@ -84,15 +84,6 @@ fn workspace(
     heights.extend(ends.iter().map(|end| end.text.clone()));
     let (high, _) = least(&heights).ok_or_else(|| settings.refused(nothing))?;
     volume(settings, SOURCE, &full, &high)
-}
-
-/// `position_endstop` of each stepper; the first one's where another has none.
-fn endstops(settings: &mut Settings) -> Result<[Number; 3], ImportError> {
-    const BECAME: &str = "the endstop's height, which bounds the workspace's";
-    let option = |stepper| key(stepper, "position_endstop");
-    let first = settings.required(&option(STEPPERS[0]), BECAME)?;
-    let mut other = |stepper| settings.positive_or(&option(stepper), BECAME, (&first.text, SOURCE));
-    Ok([other(STEPPERS[0])?, other(STEPPERS[1])?, other(STEPPERS[2])?])
 }
 
 /// Half of the least distance that a step moves a carriage, `half_min_step_dist`.

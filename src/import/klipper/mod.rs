@@ -102,6 +102,9 @@ fn cannot_matter(setting: &Setting) -> bool {
     }
 }
 
+/// What `position_endstop` is for.
+const ENDSTOP: &str = "the endstop's height, which bounds the workspace's";
+
 /// A length of each stepper; that of the first where another has none.
 fn of_steppers(
     settings: &mut Settings,

@@ -2,7 +2,7 @@
 //! klippy/chelper/kin_rotary_delta.c.
 
 use super::file::key;
-use super::{angles, of_steppers, volume, PRINTER, STEPPERS};
+use super::{angles, of_steppers, volume, ENDSTOP, PRINTER, STEPPERS};
 use crate::import::settings::Settings;
 use crate::import::toml::{factors_per_radian, greatest, least, less};
 use crate::import::toml::{Arm, Machine, Number};
@@ -67,7 +67,7 @@ fn workspace(
     if value.sign() != Some(1) {
         return Err(settings.refused("shoulder_radius leaves the lower arms no radius to print in"));
     }
-    let ends = endstops(settings)?;
+    let ends = of_steppers(settings, "position_endstop", ENDSTOP, SOURCE)?;
     let lower_ends: Vec<String> = ends.iter().map(|end| end.text.clone()).collect();
     let (top, _) = least(&lower_ends).ok_or_else(|| settings.refused(nothing))?;
     let mut cones = Vec::new();
@@ -100,13 +100,4 @@ fn elbow(radius: &str, height: &str, [upper, lower]: [&Number; 2], end: &Number)
     let k = format!("({square}+{a}*{a}-{l}*{l})/(2*{square})");
     // The outer one has the greater x, for d_y < 0.
     format!("{height}+{k}*{y}-{radius}*sqrt({a}*{a}/{square}-({k})*({k}))")
-}
-
-/// `position_endstop` of each stepper; the first one's where another has none.
-fn endstops(settings: &mut Settings) -> Result<[Number; 3], ImportError> {
-    const BECAME: &str = "the endstop's height, which bounds the workspace's";
-    let option = |stepper| key(stepper, "position_endstop");
-    let first = settings.required(&option(STEPPERS[0]), BECAME)?;
-    let mut other = |stepper| settings.positive_or(&option(stepper), BECAME, (&first.text, SOURCE));
-    Ok([other(STEPPERS[0])?, other(STEPPERS[1])?, other(STEPPERS[2])?])
 }

@@ -14,7 +14,7 @@ mod value;
 use super::files::{Files, Reading};
 use super::settings::Settings;
 use super::toml::{cylinder, Machine, Number, FACTORS};
-use super::towers::{about, difference, lesser, sum, written, Tower, TOWERS};
+use super::towers::{about, difference, legs, lesser, sum, written, Tower, TOWERS};
 use super::{ImportError, Imported, Setting};
 use macros::{Body, Doubt, Macro, Macros, Place, Problem, Truth};
 use num_traits::Signed;
@@ -373,13 +373,7 @@ impl Header<'_> {
         let adjusted =
             self.three("DELTA_ENDSTOP_ADJ", "in the height at which an endstop is met")?;
         let reach = "a radius less than the rods' length, an angle within a turn";
-        let leg = |tower: &Tower| {
-            let short = tower.radius.value.compare(&tower.rod.value) == Some(Ordering::Less);
-            tower.leg().filter(|_| short)
-        };
-        let legs: Option<Vec<String>> = towers.iter().map(leg).collect();
-        let legs = legs.and_then(|legs| <[String; 3]>::try_from(legs).ok());
-        let legs = legs.ok_or_else(|| match self.bad("DELTA_RADIUS") {
+        let legs = legs(towers).ok_or_else(|| match self.bad("DELTA_RADIUS") {
             ImportError::BadValue { file, line, setting, found, .. } => {
                 ImportError::BadValue { file, line, setting, found, expected: reach.to_owned() }
             }

@@ -11,7 +11,7 @@ mod script;
 use super::files::{Files, Reading};
 use super::settings::Settings;
 use super::toml::{cylinder, factors_per_radian, Arm, Machine, Number, FACTORS};
-use super::towers::{highest, sum, Tower, TOWERS};
+use super::towers::{highest, legs, sum, Tower, TOWERS};
 use super::{ImportError, Imported, Setting};
 use crate::exact::Exact;
 use script::{Kinematics, Script};
@@ -112,14 +112,8 @@ fn linear(settings: &mut Settings) -> Result<Machine, ImportError> {
         let degrees = degrees(settings, "M665", i, LINEAR)?;
         towers.push(Tower { label: TOWERS[i].0, degrees, radius: radius.clone(), rod });
     }
-    let leg = |tower: &Tower| {
-        let short = radius.value.compare(&tower.rod.value) == Some(Ordering::Less);
-        tower.leg().filter(|_| short)
-    };
-    let legs: Option<Vec<String>> = towers.iter().map(leg).collect();
-    let legs = legs.and_then(|legs| <[String; 3]>::try_from(legs).ok());
     let reach = "a radius less than the rods' length, corrections within a turn";
-    let legs = legs.ok_or_else(|| settings.bad("M665 R", reach))?;
+    let legs = legs(&towers).ok_or_else(|| settings.bad("M665 R", reach))?;
     let print = settings.positive_or("M665 B", "the workspace's radius", ("80.0", LINEAR))?;
     let homed = "in the height at which a carriage is at its endstop";
     let height = settings.number_or("M665 H", homed, ("240.0", LINEAR))?;

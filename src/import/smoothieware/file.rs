@@ -156,6 +156,7 @@ fn matters(key: &str) -> bool {
     let homing = ["_max", "_min", "_homing_direction", "_trim_mm", "_trim"];
     let tower = ["alpha", "beta", "gamma"].iter().find_map(|axis| key.strip_prefix(axis));
     key.starts_with("arm_")
+        || ["arm1_trim", "arm2_trim", "arm3_trim"].contains(&key)
         || key.starts_with("delta_")
         || key.starts_with("soft_endstop.")
         || key == "endstops_enable"
@@ -166,17 +167,20 @@ fn matters(key: &str) -> bool {
 /// it moves. Trims of an older name are of no effect in the firmware, and refused unless they are 0.
 pub(super) fn is_harmless(setting: &Setting) -> bool {
     let key = setting.key.as_str();
-    let zero = Number::parse(&setting.value).is_some_and(|number| number.value.sign() == Some(0));
     let old_trim = key.ends_with("_trim");
     let homing = ["_max", "_min", "_homing_direction", "_trim_mm"];
     let homes = ["alpha", "beta", "gamma"]
         .iter()
         .find_map(|axis| key.strip_prefix(axis))
         .is_some_and(|rest| homing.contains(&rest));
-    HARMLESS.contains(&key) || homes || (old_trim && zero)
+    HARMLESS.contains(&key) || homes || (old_trim && is_zero(setting))
 }
 
-const LINEAR: [(char, &str); 10] = [
+fn is_zero(setting: &Setting) -> bool {
+    Number::parse(&setting.value).is_some_and(|number| number.value.sign() == Some(0))
+}
+
+const LINEAR: [(char, &str); 13] = [
     ('L', "arm_length"),
     ('R', "arm_radius"),
     ('A', "delta_tower1_offset"),
@@ -186,6 +190,9 @@ const LINEAR: [(char, &str); 10] = [
     ('E', "delta_tower2_angle"),
     ('F', "delta_tower3_angle"),
     ('H', "delta_tower3_angle"),
+    ('I', "arm1_trim"),
+    ('J', "arm2_trim"),
+    ('K', "arm3_trim"),
     ('Z', "gamma_max"),
 ];
 
@@ -206,17 +213,17 @@ const TRIMS: [(char, &str); 3] =
 pub(super) fn override_linear(settings: &mut Settings, overridden: &[Overridden]) {
     for saved in overridden {
         match saved.command.name.as_str() {
-            "M665" => saved.apply(settings, &LINEAR),
+            "M665" => {
+                saved.apply(settings, &LINEAR);
+                saved.refuse_mixture(settings);
+            }
             "M666" => saved.apply(settings, &TRIMS),
             "M206" => saved.apply(settings, &[('Z', "M206 Z"), ('X', "M206 X"), ('Y', "M206 Y")]),
             _ => {}
         }
     }
     for key in ["M206 X", "M206 Y", "M206 Z"] {
-        let zero = |setting: &Setting| {
-            Number::parse(&setting.value).is_some_and(|n| n.value.sign() == Some(0))
-        };
-        if settings.peek(key).is_some_and(zero) {
+        if settings.peek(key).is_some_and(is_zero) {
             settings.unset(key);
         }
     }
@@ -242,6 +249,24 @@ impl Overridden {
                 // Segments; debugging.
                 None if "SUW".contains(letter) => {}
                 None => settings.not_understood(Setting { file, line, key: named, value }),
+            }
+        }
+    }
+    /// Corrections of which `M665` names some: what becomes of the others depends on the firmware's revision
+    /// (`LinearDeltaSolution::set_optional` has set most of them to 0).
+    fn refuse_mixture(&self, settings: &mut Settings) {
+        let is_correction = |key: &str| key.starts_with("delta_tower") || key.ends_with("_trim");
+        let letters: Vec<char> = self.command.words().map(|(letter, _)| letter).collect();
+        let all = LINEAR.into_iter().filter(|(_, key)| is_correction(key));
+        let (named, others): (Vec<_>, Vec<_>) =
+            all.partition(|(letter, _)| letters.contains(letter));
+        let is_named = |key: &str| named.iter().any(|(_, own)| *own == key);
+        for (letter, key) in others.into_iter().filter(|(_, key)| !is_named(key)) {
+            let is_set = settings.peek(key).is_some_and(|setting| !is_zero(setting));
+            if is_set && !named.is_empty() {
+                let (file, line) = (self.file.clone(), self.line);
+                let value = format!("no {letter}, where {key} is set");
+                settings.not_understood(Setting { file, line, key: "M665".to_owned(), value });
             }
         }
     }

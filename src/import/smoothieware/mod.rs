@@ -1,17 +1,17 @@
 //! Smoothieware: `config`, with what it includes, and the `config-override` that `M500` saved.
 //!
 //! The towers of a linear Delta are those of `LinearDeltaSolution::init`, at 210, 330 and 90 degrees
-//! and their corrections. The arms of a rotary Delta are those of `delta_calcAngleYZ` in
-//! RotaryDeltaSolution.cpp: at 270, 30 and 150 degrees, with the sides of two triangles for radii and
-//! angles that count downwards. Of the volume the firmware enforces the soft endstops, where they
-//! are enabled, and nothing else.
+//! and their corrections, with rods of lengths of their own. The arms of a rotary Delta are those of
+//! `delta_calcAngleYZ` in RotaryDeltaSolution.cpp: at 270, 30 and 150 degrees, with the sides of two
+//! triangles for radii and angles that count downwards. Of the volume the firmware enforces the soft
+//! endstops, where they are enabled, and nothing else.
 
 mod file;
 
 use super::files::{Files, Reading};
 use super::settings::Settings;
 use super::toml::{cylinder, factors_per_radian, quoted, Arm, Machine, Number, FACTORS};
-use super::towers::{difference, highest, sum, Tower, TOWERS};
+use super::towers::{difference, highest, legs, sum, Tower, TOWERS};
 use super::{ImportError, Imported};
 use crate::exact::Exact;
 use std::cmp::Ordering;
@@ -21,6 +21,11 @@ use std::path::PathBuf;
 const LINEAR: &str = "src/modules/robot/arm_solutions/LinearDeltaSolution.cpp";
 const ROTARY: &str = "src/modules/robot/arm_solutions/RotaryDeltaSolution.cpp";
 const ENDSTOPS: &str = "src/modules/tools/endstops/Endstops.cpp";
+
+/// Some revisions take it for true, others do not know it.
+const UNSAID: &str =
+    "delta_mirror_xy is not set, and whether x and y are mirrored then depends on the \
+                      firmware's revision; accepted: a configuration that sets it";
 
 /// The design that Smoothieware's `config` describes. Included files and `config-override` are
 /// looked for among the other paths, then beside it.
@@ -73,25 +78,25 @@ fn linear(settings: &mut Settings) -> Result<Machine, ImportError> {
     for (i, (label, degrees)) in TOWERS.into_iter().enumerate() {
         let [offset, angle] =
             ["offset", "angle"].map(|what| format!("delta_tower{}_{what}", i + 1));
+        let trim = format!("arm{}_trim", i + 1);
         let further =
             settings.number_or(&offset, "added to the tower's distance", ("0", LINEAR))?;
         let turned = settings.number_or(&angle, "added to the tower's angle", ("0", LINEAR))?;
+        let longer = settings.number_or(&trim, "added to the rods' length", ("0", LINEAR))?;
         let degrees = Number::parse(degrees).and_then(|base| sum(&base, &turned));
+        let rod = match longer.value.sign() {
+            Some(0) => Some(rod.clone()),
+            _ => sum(&rod, &longer).filter(Number::is_positive),
+        };
         towers.push(Tower {
             label,
             degrees: degrees.ok_or_else(|| settings.bad(&angle, "degrees"))?,
             radius: sum(&radius, &further).ok_or_else(|| settings.bad(&offset, "a length"))?,
-            rod: rod.clone(),
+            rod: rod.ok_or_else(|| settings.bad(&trim, "rods longer than 0"))?,
         });
     }
-    let leg = |tower: &Tower| {
-        let short = tower.radius.value.compare(&tower.rod.value) == Some(Ordering::Less);
-        tower.leg().filter(|_| short)
-    };
-    let legs: Option<Vec<String>> = towers.iter().map(leg).collect();
-    let legs = legs.and_then(|legs| <[String; 3]>::try_from(legs).ok());
     let reach = "a radius less than the rods' length, corrections within a turn";
-    let legs = legs.ok_or_else(|| settings.bad("arm_radius", reach))?;
+    let legs = legs(&towers).ok_or_else(|| settings.bad("arm_radius", reach))?;
     let workspace = match soft_endstops(settings)? {
         Some(workspace) => workspace,
         None => unlimited_linear(settings, &towers, &radius)?,
@@ -235,13 +240,9 @@ fn rotary(settings: &mut Settings) -> Result<Machine, ImportError> {
     let text = format!("({}-{})/(2*sqrt(3))", base.text, platform.text);
     let radius = Exact::parse(&text, 10_000).map(|value| Number { text, value });
     let radius = radius.map_err(|_| settings.bad("delta_f", "a length"))?;
-    let mirrored = match settings.text("delta_mirror_xy", "whether x and y are mirrored") {
-        Some(setting) => file::is_true(&setting.value),
-        None => {
-            settings.defaulted("delta_mirror_xy", "false", ROTARY);
-            false
-        }
-    };
+    let mirrored = settings.text("delta_mirror_xy", "whether x and y are mirrored");
+    let mirrored = mirrored.ok_or_else(|| settings.refused(UNSAID))?;
+    let mirrored = file::is_true(&mirrored.value);
     let stand = if mirrored { ["90", "210", "330"] } else { ["270", "30", "150"] };
     let mut legs = Vec::new();
     for (label, degrees) in ["alpha", "beta", "gamma"].into_iter().zip(stand) {
