@@ -1,6 +1,7 @@
 //! What a design file is refused for: one message that names file, line, key, what was found there
 //! and what is accepted.
 
+use super::MAX_FILE;
 use crate::files::read::Named;
 use crate::files::shown::{is_unseen, Shown};
 use std::fmt;
@@ -198,61 +199,27 @@ fn width(text: &str) -> usize {
     text.chars().filter(|&c| c != BYTE_ORDER_MARK).count()
 }
 
+const DESIGN: &str = "a design file (TOML text in UTF-8)";
+
 /// Why a design could not be read from a path.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReadError {
     /// The path is a directory.
+    #[error("{}: found a directory; accepted: {DESIGN}", .0.shown())]
     Directory(PathBuf),
     /// The operating system's reason.
-    Unreadable(PathBuf, std::io::Error),
-    /// The file has more bytes than [`MAX_FILE`](super::MAX_FILE).
+    #[error("{path}: cannot be read: {1}; accepted: {DESIGN}", path = .0.shown())]
+    Unreadable(PathBuf, #[source] std::io::Error),
+    /// The file has more bytes than [`MAX_FILE`].
+    #[error(
+        "{}: found more than {MAX_FILE} bytes; accepted: {DESIGN} of at most that size", .0.shown()
+    )]
     TooLarge(PathBuf),
     /// The file is not UTF-8, as TOML is; the line on which it stops being so.
+    #[error("{path}:{1}: found bytes that are not UTF-8; accepted: {DESIGN}", path = .0.shown())]
     NotUtf8(PathBuf, usize),
     /// The file was read, but is not a design.
-    Design(DesignError),
-}
-
-impl fmt::Display for ReadError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let design = "a design file (TOML text in UTF-8)";
-        match self {
-            ReadError::Directory(path) => {
-                write!(f, "{}: found a directory; accepted: {design}", path.shown())
-            }
-            ReadError::Unreadable(path, error) => {
-                write!(f, "{}: cannot be read: {error}; accepted: {design}", path.shown())
-            }
-            ReadError::TooLarge(path) => write!(
-                f,
-                "{}: found more than {} bytes; accepted: {design} of at most that size",
-                path.shown(),
-                super::MAX_FILE
-            ),
-            ReadError::NotUtf8(path, line) => {
-                write!(
-                    f,
-                    "{}:{line}: found bytes that are not UTF-8; accepted: {design}",
-                    path.shown()
-                )
-            }
-            ReadError::Design(error) => error.fmt(f),
-        }
-    }
-}
-
-impl std::error::Error for ReadError {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        match self {
-            ReadError::Unreadable(_, error) => Some(error),
-            _ => None,
-        }
-    }
-}
-
-impl From<DesignError> for ReadError {
-    fn from(error: DesignError) -> Self {
-        ReadError::Design(error)
-    }
+    #[error(transparent)]
+    Design(#[from] DesignError),
 }

@@ -9,7 +9,6 @@ use crate::files::output::{self, folder_of, OutputError};
 use crate::files::read::Named;
 use crate::files::shown::Shown;
 use std::ffi::OsString;
-use std::fmt;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
@@ -21,51 +20,25 @@ pub const SUMS: &str = "SHA256SUMS";
 const MAX_SUMS: u64 = 1 << 16;
 
 /// Why a folder is not written; what was there is as it was.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FolderError {
     /// The path has no name of its own: `.`, `..` or the root.
+    #[error("{}: found no name; accepted: the name of a folder", .0.shown())]
     Nameless(PathBuf),
     /// A link is there, or no folder.
+    #[error("{}: cannot be written: it is a symbolic link, or no folder", .0.shown())]
     NotAFolder(PathBuf),
     /// It holds this file, which is not as it was written, or was not written at all.
+    #[error(
+        "{}: found {} in it, which is not what an earlier run left there; accepted: a new folder, an \
+         empty one, or one with what an earlier run left and nothing else",
+        .0.shown(), Shown(.1)
+    )]
     Foreign(PathBuf, String),
     /// The operating system's reason.
-    Io(PathBuf, io::Error),
-}
-
-impl fmt::Display for FolderError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            FolderError::Nameless(path) => {
-                write!(f, "{}: found no name; accepted: the name of a folder", path.shown())
-            }
-            FolderError::NotAFolder(path) => write!(
-                f,
-                "{}: cannot be written: it is a symbolic link, or no folder",
-                path.shown()
-            ),
-            FolderError::Foreign(path, name) => write!(
-                f,
-                "{}: found {name} in it, which is not what an earlier run left there; accepted: a new \
-                 folder, an empty one, or one with what an earlier run left and nothing else",
-                path.shown(),
-                name = Shown(name)
-            ),
-            FolderError::Io(path, error) => {
-                write!(f, "{}: cannot be written: {error}", path.shown())
-            }
-        }
-    }
-}
-
-impl std::error::Error for FolderError {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        match self {
-            FolderError::Io(_, error) => Some(error),
-            _ => None,
-        }
-    }
+    #[error("{path}: cannot be written: {1}", path = .0.shown())]
+    Io(PathBuf, #[source] io::Error),
 }
 
 /// Finds out, before the work, whether [`write()`] has a chance; makes the folder's own folder.

@@ -6,7 +6,6 @@
 
 use crate::files::open::is_stream;
 use crate::files::read::Named;
-use std::fmt;
 use std::fs::{self, File, Metadata, OpenOptions, TryLockError};
 use std::io::{self, Seek, Write};
 use std::path::{Path, PathBuf};
@@ -20,52 +19,30 @@ static WRITING: Mutex<()> = Mutex::new(());
 static FOLLOW: AtomicBool = AtomicBool::new(false);
 
 /// Why a file could not be written; the target is as it was before.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum OutputError {
     /// The target is a folder.
+    #[error("{}: cannot be written: it is a folder", .0.shown())]
     IsFolder(PathBuf),
     /// The target exists and is marked read-only.
+    #[error("{}: cannot be written: the file is read-only", .0.shown())]
     ReadOnly(PathBuf),
     /// The folder of the target does not exist, or is not a folder.
+    #[error("{}: cannot be written: there is no folder {}", .0.shown(), folder_of(.0).shown())]
     NoFolder(PathBuf),
     /// What is there is a link, or no regular file.
+    #[error(
+        "{}: cannot be written: it is a symbolic link, or no regular file; --follow-links follows links",
+        .0.shown()
+    )]
     NotAFile(PathBuf),
     /// Another run is writing the file.
+    #[error("{}: cannot be written: another run is writing it", .0.shown())]
     Busy(PathBuf),
     /// The operating system's reason.
-    Io(PathBuf, io::Error),
-}
-
-impl fmt::Display for OutputError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            OutputError::IsFolder(path) => {
-                write!(f, "{}: cannot be written: it is a folder", path.shown())
-            }
-            OutputError::ReadOnly(path) => {
-                write!(f, "{}: cannot be written: the file is read-only", path.shown())
-            }
-            OutputError::NoFolder(path) => write!(
-                f,
-                "{}: cannot be written: there is no folder {}",
-                path.shown(),
-                folder_of(path).shown()
-            ),
-            OutputError::NotAFile(path) => write!(
-                f,
-                "{}: cannot be written: it is a symbolic link, or no regular file; --follow-links \
-                 follows links",
-                path.shown()
-            ),
-            OutputError::Busy(path) => {
-                write!(f, "{}: cannot be written: another run is writing it", path.shown())
-            }
-            OutputError::Io(path, error) => {
-                write!(f, "{}: cannot be written: {error}", path.shown())
-            }
-        }
-    }
+    #[error("{path}: cannot be written: {1}", path = .0.shown())]
+    Io(PathBuf, #[source] io::Error),
 }
 
 impl OutputError {
@@ -79,15 +56,6 @@ impl OutputError {
             OutputError::NotAFile(_) => OutputError::NotAFile(path),
             OutputError::Busy(_) => OutputError::Busy(path),
             OutputError::Io(_, error) => OutputError::Io(path, error),
-        }
-    }
-}
-
-impl std::error::Error for OutputError {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        match self {
-            OutputError::Io(_, error) => Some(error),
-            _ => None,
         }
     }
 }
