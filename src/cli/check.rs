@@ -12,6 +12,7 @@ use crate::search::accepted::{check, Accepted};
 use orthocert_checker::certificate::{Certificate, Verdict};
 use orthocert_checker::{read, statement};
 use orthocert_kernel::certificate::Claim;
+use orthocert_kernel::claim::{MachineClaim, Workspace};
 use orthocert_kernel::paving::{self, Header, Summary};
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::prover::check_sample;
@@ -178,10 +179,18 @@ fn check_paving(
         None => None,
     };
     let accepted = accepted.and_then(|(accepted, words)| match wanted {
-        Some(claim) if accepted.header.claim.machine != claim => Err(another_claim(
-            &Claim::Machine(accepted.header.claim.machine),
-            &Claim::Machine(claim),
-        )),
+        Some(claim) if accepted.header.claim.machine != claim => {
+            let machine = &accepted.header.claim.machine;
+            let workspace = machine.workspace.clone();
+            let is_box = matches!(workspace, Workspace::Box { .. });
+            let there = MachineClaim { workspace, ..claim.clone() };
+            let hint = match is_box && there == *machine {
+                true => "; --box gives the box that was searched",
+                false => "",
+            };
+            let found = Claim::Machine(accepted.header.claim.machine);
+            Err(another_claim(&found, &Claim::Machine(claim)) + hint)
+        }
         _ => Ok((accepted, words)),
     });
     match accepted {

@@ -8,8 +8,10 @@ use crate::exact::Exact;
 use crate::files::output;
 use crate::files::read::named_after;
 use crate::questions::largest_cube::{cube_of_side, largest_cube, Bracket};
+use crate::questions::size::is_side;
 use crate::report::text::{duration, labelled, verbatim};
 use crate::report::{counterexample, CertificateFile, Counterexample};
+use crate::search::solver::approximate;
 use num_rational::BigRational;
 use num_traits::{FromPrimitive, ToPrimitive};
 use orthocert_checker::certificate::{Certificate, Verdict};
@@ -112,12 +114,12 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         None => largest_cube(claim, gap, budget, control),
     });
     let bracket = found.map_err(|error| size::explain(error, &design))?;
-    if bracket.inside.is_none() && bracket.too_large.is_none() && interrupt::is_cancelled() {
-        return Err(Failure::Interrupted);
-    }
     let (mut certificates, mut unwritten) = (Vec::new(), Unwritten::default());
     let inside = bracket.inside.as_ref().map(|inside| &inside.certificate);
     let beyond = bracket.too_large.as_ref().or(bracket.refuted_here.as_ref());
+    if inside.is_none() && beyond.is_none() && interrupt::is_cancelled() {
+        return Err(Failure::Interrupted);
+    }
     let too_large = beyond.map(|too_large| &too_large.certificate);
     for (certificate, target) in [inside, too_large].into_iter().zip(&targets) {
         if let Some(certificate) = certificate {
@@ -204,8 +206,8 @@ fn reached(bracket: &Bracket) -> Option<f64> {
 
 fn side(text: &str) -> Result<Expression, Failure> {
     let number = input::number("--side", text)?;
-    let positive = (number.sign() == Some(1)).then(|| written(&number)).flatten();
-    positive.ok_or_else(|| input::refused("--side", text, "a positive number"))
+    let side = written(&number).filter(|side| approximate(side).is_some_and(is_side));
+    side.ok_or_else(|| input::refused("--side", text, "a positive number, of 1e-100 to 1e100"))
 }
 
 impl Arguments {

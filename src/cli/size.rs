@@ -8,8 +8,9 @@ use crate::exact::Exact;
 use crate::questions::frontier::{Bracket, Certified, NoAnswer};
 use crate::questions::size::{is_side, Family, Scope, Unknown};
 use crate::report::text::{duration, labelled, verbatim, wrap};
-use crate::report::{counterexample, exactly, CertificateFile, Counterexample};
+use crate::report::{counterexample, CertificateFile, Counterexample};
 use num_rational::BigRational;
+use num_traits::ToPrimitive;
 use orthocert_checker::certificate::Certificate;
 use orthocert_kernel::claim::{Leg, MachineClaim, Mechanism, Quantity};
 use serde::Serialize;
@@ -149,13 +150,13 @@ fn common_length(claim: &MachineClaim) -> Option<Exact> {
     };
     let first = length(legs.first()?)?;
     let same = legs.iter().all(|leg| length(leg).as_ref() == Some(&first));
-    same.then(|| exactly(&first)).flatten()
+    same.then(|| Exact::of(&first)).flatten()
 }
 
 fn side(text: &str) -> Result<BigRational, Failure> {
     let number = input::number("--cube", text)?;
     let accepted = "a rational number greater than 0: the cube's side";
-    let side = number.as_rational().filter(|side| is_side(side)).cloned();
+    let side = number.as_rational().filter(|side| side.to_f64().is_some_and(is_side)).cloned();
     side.ok_or_else(|| input::refused("--cube", text, accepted))
 }
 

@@ -31,6 +31,7 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 use orthocert_kernel::arithmetic::Arithmetic as _;
 use orthocert_kernel::fixed::{Fixed, Interval};
+use orthocert_kernel::number::Expression;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
@@ -158,6 +159,11 @@ impl Exact {
     /// The integer `n`.
     pub fn integer(n: i64) -> Self {
         Exact::Rational(BigRational::from_integer(n.into()))
+    }
+
+    /// A number of a claim; none that is larger than is admissible there.
+    pub fn of(x: &Expression) -> Option<Self> {
+        Exact::parse(&x.to_string(), MAX_DIGITS).ok()
     }
 
     /// Parses an expression; literals have at most `max_digits` digits.

@@ -21,7 +21,7 @@ use crate::search::solver::value::depends_on_length;
 use crate::search::solver::{approximate, number};
 use crate::search::{Budget, Control};
 use num_rational::BigRational;
-use num_traits::{FromPrimitive, Signed, ToPrimitive, Zero};
+use num_traits::{FromPrimitive, ToPrimitive, Zero};
 use orthocert_checker::certificate::Certificate;
 use orthocert_kernel::claim::{
     Bound, Leg, MachineClaim, Mechanism, Quantity, Requirement, Sign, Turning, Workspace,
@@ -373,6 +373,6 @@ fn leg_length(claim: &MachineClaim) -> Option<f64> {
 }
 
 /// Whether a number can be the side of a cube.
-pub fn is_side(side: &BigRational) -> bool {
-    side.is_positive() && side.to_f64().is_some_and(|x| (1e-100..1e100).contains(&x))
+pub fn is_side(side: f64) -> bool {
+    (1e-100..=1e100).contains(&side)
 }

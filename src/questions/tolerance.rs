@@ -12,7 +12,6 @@ use crate::questions::frontier::{
     approach, frontier, unless_cancelled, Approach, Approached, Bracket, NoAnswer, Succeeds, Walk,
     LARGEST_FACTOR,
 };
-use crate::report::exactly;
 use crate::search::solver::enclose::of_one_width;
 use crate::search::solver::sample::Worst;
 use crate::search::solver::{self, number};
@@ -164,7 +163,7 @@ pub fn squares(
         for (.., components) in vectors.filter(|(.., components)| !components.is_empty()) {
             let mut square = Exact::integer(0);
             for quantity in components {
-                let [min, max] = quantity.ends().map(exactly);
+                let [min, max] = quantity.ends().map(Exact::of);
                 let twice = min?.plus(max?).ok()?;
                 square = square.plus(twice.clone().times(twice).ok()?).ok()?;
             }

@@ -5,13 +5,13 @@ use super::remains::{reason, OpenRegion, OpenRequirement, Remains, WorstBox};
 use super::share::sum_above;
 use super::{Counterexample, Near, Row, Setting};
 use crate::exact::decimal::{approximate, exact, readable, rounded, significant, Toward};
-use crate::exact::Exact;
+use crate::exact::{Exact, MAX_DIGITS};
 use crate::report::requirement::{rule_of, SINGULARITY};
 use crate::search::solver::sample::{Place, Quality, Sampler, Worst};
 use crate::search::solver::search::Open;
 use crate::search::solver::value::{coordinates, with_unit, Bounded};
 use crate::search::solver::violation::nearest_points;
-use crate::search::solver::Undecided;
+use crate::search::solver::{self, Undecided};
 use crate::search::Stop;
 use nalgebra::Vector3;
 use num_rational::BigRational;
@@ -23,6 +23,7 @@ use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::quantity::{Obligation, Test};
 use orthocert_kernel::witness;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Relative violations below this are rounding errors of the sampling.
 const NOISE: f64 = 1e-12;
@@ -34,8 +35,6 @@ const DIGITS: std::ops::RangeInclusive<u32> = 6..=17;
 const PARTS: [f64; 6] = [1.0, 0.99, 0.9, 0.5, 0.1, 0.01];
 /// Digits of a pose.
 const POSE_DIGITS: u32 = 6;
-/// Longest text of an exact number.
-const MOST_DIGITS: usize = 1000;
 /// Regions that are described one by one.
 const REGIONS: usize = 12;
 /// Boxes that are brought together; more are left out of the regions.
@@ -47,11 +46,6 @@ pub struct Facts<'a> {
     problem: &'a Problem,
     sampler: Sampler<'a>,
     angular: bool,
-}
-
-/// An exact number as the checker's.
-pub fn exactly(x: &Expression) -> Option<Exact> {
-    Exact::parse(&x.to_string(), MOST_DIGITS).ok()
 }
 
 /// Relative margin of an accuracy beyond which its bound is what makes it hard.
@@ -80,7 +74,7 @@ fn along_one_leg(bodies: &[Body]) -> impl Iterator<Item = [usize; 2]> + '_ {
 
 /// A number for people.
 pub fn shown(x: &Expression) -> String {
-    exactly(x).map_or_else(|| x.to_string(), |x| readable(&x))
+    Exact::of(x).map_or_else(|| x.to_string(), |x| readable(&x))
 }
 
 impl<'a> Facts<'a> {
@@ -128,7 +122,7 @@ impl<'a> Facts<'a> {
     /// A requirement in words: `greatest psi <= 2`.
     fn words(&self, quality: Quality) -> String {
         let (name, _, relation, sides) = self.demanded(quality);
-        let side = |x: &Expression| exactly(x).map_or_else(|| x.to_string(), |x| exact(&x));
+        let side = |x: &Expression| Exact::of(x).map_or_else(|| x.to_string(), |x| exact(&x));
         format!("{name} {}", bound_text(relation, sides.iter().map(side).collect()))
     }
 
@@ -199,10 +193,10 @@ impl<'a> Facts<'a> {
 
     /// The words for a witness that refutes the claim.
     pub fn counterexample(&self, witness: &Witness) -> Option<Counterexample> {
-        let points = |point: &[Expression]| point.iter().map(exactly).collect::<Option<Vec<_>>>();
+        let points = |point: &[Expression]| point.iter().map(Exact::of).collect::<Option<Vec<_>>>();
         let setting = |((place, ..), value): ((&str, &Expression, &Expression), &Expression)| {
             let (leg, parameter) = parameter(place);
-            Some(Setting { leg, parameter, value: exactly(value)? })
+            Some(Setting { leg, parameter, value: Exact::of(value)? })
         };
         let machine = self.problem.tolerances().zip(&witness.machine).map(setting);
         let (mut rule, mut other_point, mut directions) = (SINGULARITY, None, Vec::new());
@@ -351,14 +345,15 @@ impl<'a> Facts<'a> {
             }
             _ => return Some(format!("{name} fails")),
         };
-        let bound = exactly(sides.first()?)?.below(256)?;
+        let bound = Exact::of(sides.first()?)?.below(256)?;
         // No clearance less than none is claimed.
         let touch = self.bounded(quality).is_some_and(|bounded| bounded.is_clearance());
         let value = value.map(|value| if touch { value.max(0.0) } else { value });
+        let is_near = |x: &Expression| solver::approximate(x).is_some();
+        let is_singular = value.is_some_and(f64::is_infinite) && witness.point.iter().all(is_near);
         let Some(value) = value.and_then(BigRational::from_f64) else {
             // Beyond the doubles nothing is known of it but what is refuted.
-            let is_near = |x: &Expression| exactly(x).as_ref().and_then(approximate).is_some();
-            return Some(match witness.point.iter().all(is_near) {
+            return Some(match is_singular {
                 true => format!("{name} has no bound: M is singular there"),
                 false => format!("{name} {} {}", &reverse[..1], shown(sides.first()?)),
             });
@@ -381,7 +376,7 @@ impl<'a> Facts<'a> {
         let mut claim = self.claim.clone();
         let obligation: &Obligation = &self.problem.obligations[number];
         let requirement = obligation.requirement.and_then(|at| claim.require.get_mut(at));
-        let (Some(requirement), Ok(x)) = (requirement, Exact::parse(text, MOST_DIGITS)) else {
+        let (Some(requirement), Ok(x)) = (requirement, Exact::parse(text, MAX_DIGITS)) else {
             return false;
         };
         let x = x.as_rational().and_then(crate::search::solver::number);
@@ -430,9 +425,13 @@ impl<'a> Facts<'a> {
     fn worst_box(&self, open: &[Open]) -> Option<WorstBox> {
         let stride = open.len().div_ceil(MOST_BOXES).max(1);
         let at_centre = |item: &Open| {
-            let values = self.sampler.at(&self.sampler.place_in(&item.cell));
+            let place = self.sampler.place_in(&item.cell);
+            let values = self.sampler.at(&place);
             let all = item.obligations.iter().map(|&number| Quality::Obligation(number));
-            let margins = all.map(|quality| (self.sampler.margin(quality, &values), quality));
+            let margins = all.map(|quality| {
+                let margin = self.sampler.margin(quality, &values);
+                (self.relative(&Worst { quality, place: place.clone(), margin }), quality)
+            });
             margins.min_by(|a, b| a.0.total_cmp(&b.0))
         };
         let boxes = open.iter().step_by(stride).filter_map(|item| Some((item, at_centre(item)?)));
@@ -441,31 +440,62 @@ impl<'a> Facts<'a> {
         Some(WorstBox { min, max, requirement: self.words(quality), margin })
     }
 
+    /// Tests of one requirement that are told in the same words are one.
     fn open(&self, undecided: &Undecided, worst: &[Worst]) -> Vec<OpenRequirement> {
-        let of = |number: usize| {
-            let boxes = || undecided.open.iter().filter(|item| item.obligations.contains(&number));
-            let count = boxes().count();
-            let quality = Quality::Obligation(number);
+        let mut all = BTreeMap::new();
+        let numbers: BTreeSet<usize> =
+            undecided.open.iter().flat_map(|item| item.obligations.iter().copied()).collect();
+        for number in numbers {
+            let requirement = self.problem.obligations[number].requirement;
+            let told = (requirement, self.words(Quality::Obligation(number)));
+            all.entry(told).or_insert_with(Vec::new).push(number);
+        }
+        let of = |((_, requirement), numbers): ((_, _), Vec<usize>)| {
+            let is_open =
+                |item: &&Open| numbers.iter().any(|number| item.obligations.contains(number));
+            let boxes = || undecided.open.iter().filter(is_open);
+            let qualities = || numbers.iter().map(|&number| Quality::Obligation(number));
+            let found = |quality| worst.iter().find(|found| found.quality == quality);
+            let margin = |quality: &Quality| found(*quality).map(|found| self.relative(found));
+            let far = |quality: &Quality| margin(quality).unwrap_or(f64::INFINITY);
+            let quality = qualities().min_by(|a, b| far(a).total_cmp(&far(b)))?;
             let rule =
                 self.bounded(quality).map_or("singularity".to_owned(), |b| b.requirement.quantity);
             let reason = match undecided.stop {
                 Stop::Exhausted | Stop::Hopeless => "the test does not hold",
                 Stop::Boxes | Stop::Time | Stop::Cancelled => "not shown within the budget",
             };
-            (count > 0).then(|| OpenRequirement {
+            let count = boxes().count();
+            Some(OpenRequirement {
                 obligation: rule,
-                requirement: self.words(quality),
+                requirement,
                 boxes: count,
                 share: boxes().map(share).fold(0.0, sum_above),
                 reasons: vec![(reason.to_owned(), count)],
-                help: self.help(quality, undecided.stop, worst),
+                help: self.help(quality, undecided.stop, margin(&quality)),
             })
         };
-        (0..self.problem.obligations.len()).filter_map(of).collect()
+        all.into_iter().filter_map(of).collect()
     }
 
-    fn help(&self, quality: Quality, stop: Stop, worst: &[Worst]) -> String {
-        let margin = worst.iter().find(|found| found.quality == quality).map(|found| found.margin);
+    /// The margin relative to the bound, which that of a joint speed's test, a product of several quantities, is not.
+    fn relative(&self, found: &Worst) -> f64 {
+        let of_speed = || {
+            let bounded = self.bounded(found.quality)?;
+            if bounded.requirement.quantity != "joint_speed" {
+                return None;
+            }
+            let values = self.sampler.at(&found.place);
+            let value = bounded.known(self.problem, &self.sampler, &values)?;
+            match &bounded.requirement.bound {
+                Bound::Max(max) => Some(1.0 - value / solver::approximate(max)?),
+                _ => None,
+            }
+        };
+        of_speed().filter(|margin| margin.is_finite()).unwrap_or(found.margin)
+    }
+
+    fn help(&self, quality: Quality, stop: Stop, margin: Option<f64>) -> String {
         let of_accuracy =
             self.bounded(quality).filter(|own| own.requirement.quantity == "accuracy");
         match (stop, margin) {

@@ -22,7 +22,7 @@ mod worst;
 mod wrap;
 
 pub use counterexample::{Counterexample, Near, Setting};
-pub use kernel::{exactly, parameter, shown, Facts};
+pub use kernel::{parameter, shown, Facts};
 pub use machine::{machine_at_ends, machine_of_witness};
 pub use place::{placed, point_text, pose_text, FreeParameter};
 pub use postulate::PostulateReport;

@@ -371,16 +371,13 @@ fn describe_remains(out: &mut String, remains: &Remains, coordinates: &Coordinat
         return;
     }
     let regions = counted(remains.region_count, "region", "regions");
-    labelled(
-        out,
-        "open",
-        &format!(
-            "{} in {regions}: volume {}, {} of the workspace",
-            boxes(remains.boxes),
-            number(remains.volume),
-            percent(remains.share)
-        ),
-    );
+    // Of orientations, too, it would have no unit.
+    let volume = match coordinates.turns() {
+        [] => format!("volume {}, ", number(remains.volume)),
+        _ => String::new(),
+    };
+    let (boxes_there, share) = (boxes(remains.boxes), percent(remains.share));
+    labelled(out, "open", &format!("{boxes_there} in {regions}: {volume}{share} of the workspace"));
     if let Some(worst) = &remains.worst_box {
         let margin = number(worst.margin);
         let text = format!("{}: relative margin {margin} at its centre", worst.requirement);

@@ -2,6 +2,7 @@
 
 use crate::support::{Folder, Run};
 use serde_json::Value;
+use std::collections::BTreeSet;
 use std::io::Write;
 use std::process::Stdio;
 
@@ -180,4 +181,133 @@ fn an_accuracy_with_too_much_room_says_so() {
     folder.write("d.toml", text.replace("max = 0.01, max_angle = 0.05", "max = 5, max_angle = 1"));
     let run = folder.run(&["verify", "d.toml", "--max-boxes", "5"]).exits(3);
     run.says(&["what would help: smaller bounds: within them there is to be no second pose"]);
+}
+
+/// A linear Delta as importers write it: an irrational coordinate lies between two decimals, which are one double.
+const NARROW: &str = r#"
+[mechanism]
+kind = "translational"
+[[mechanism.legs]]
+drive = "slider"
+direction = [0, 0, 1]
+anchor = [{ min = "-113.6228544598511515088", max = "-113.6228544598511513772" }, -66.4, 0]
+length = 270.5
+mode = "-"
+[[mechanism.legs]]
+drive = "slider"
+direction = [0, 0, 1]
+anchor = [113.74, -66.2, 0]
+length = 270.4
+mode = "-"
+[[mechanism.legs]]
+drive = "slider"
+direction = [0, 0, 1]
+anchor = [0, 131.6, 0]
+length = 270.5
+mode = "-"
+[workspace]
+cylinder = { center = [0, 0], radius = "129.9", z = [0, 100] }
+[requirements]
+transmission = { min = "1/4", max = 4 }
+"#;
+
+#[test]
+fn a_value_of_a_machine_within_one_double_is_told() {
+    let folder = Folder::new();
+    folder.write("d.toml", NARROW);
+    let run = folder.run(&["verify", "d.toml"]).exits(1).says(&["least psi <= 0.249"]);
+    assert!(!run.stdout.contains("no bound"), "{}", run.stdout);
+}
+
+#[test]
+fn a_paving_of_a_box_of_a_cylinder_says_how_it_is_checked() {
+    let folder = Folder::new();
+    folder.write("d.toml", NARROW);
+    let region = "-60,60,-60,60,0,100";
+    folder.run(&["pave", "d.toml", "--box", region, "--volume-gap", "0.5", "-o", "p"]).exits(0);
+    let hint = "--box gives the box that was searched";
+    folder.run(&["check", "p", "--design", "d.toml"]).exits(5).complains(&[hint]);
+    folder.run(&["check", "p", "--design", "d.toml", "--box", region]).exits(0);
+}
+
+const ROTARY: &str = r#"
+[mechanism]
+kind = "translational"
+[[mechanism.legs]]
+drive = "arm"
+anchor = [2, 0, 0]
+axis = [0, 1, 0]
+reference = [1, 0, 0]
+arm = 3.5
+length = 8
+mode = "+"
+[[mechanism.legs]]
+drive = "arm"
+anchor = [-1, "sqrt(3)", 0]
+axis = ["-sqrt(3)/2", "-1/2", 0]
+reference = ["-1/2", "sqrt(3)/2", 0]
+arm = 3.5
+length = 8
+mode = "+"
+[[mechanism.legs]]
+drive = "arm"
+anchor = [-1, "-sqrt(3)", 0]
+axis = ["sqrt(3)/2", "-1/2", 0]
+reference = ["-1/2", "-sqrt(3)/2", 0]
+arm = 3.5
+length = 8
+mode = "+"
+[workspace]
+min = [-0.5, -0.5, -8]
+max = [0.5, 0.5, -7.5]
+[requirements]
+joint_force = { tool = 50, max = 50000 }
+"#;
+
+#[test]
+fn a_joint_force_is_not_said_to_be_of_another_tool_force() {
+    let folder = Folder::new();
+    let of_one = "joint force is that of a tool force of 1";
+    folder.write("d.toml", ROTARY);
+    let bounds = ["bounds", "d.toml", "--relative", "0.1"];
+    let own = folder.run(&bounds).exits(0).says(&["joint force"]);
+    assert!(!own.stdout.contains(of_one), "{}", own.stdout);
+    folder.write(
+        "d.toml",
+        ROTARY.replace("joint_force = { tool = 50, max = 50000 }", "conditioning = { max = 9 }"),
+    );
+    folder.run(&bounds).exits(0).says(&[of_one]);
+}
+
+/// One box of a design with tests of one requirement that have the same words, as those of a joint's two sides.
+#[test]
+fn what_is_open_is_told_once() {
+    let folder = Folder::new();
+    folder.write("d.toml", include_str!("../designs/kernel/hexapod-joints.toml"));
+    let run = folder.run(&["verify", "d.toml", "--max-boxes", "1", "--format", "json"]).exits(3);
+    let answer: Value = serde_json::from_str(&run.stdout).unwrap();
+    let open = answer["undecided"]["open"].as_array().unwrap();
+    let told: BTreeSet<String> = open.iter().map(|one| one["requirement"].to_string()).collect();
+    assert!(told.iter().any(|words| words.contains("base joint")), "{told:?}");
+    assert_eq!(told.len(), open.len(), "{open:?}");
+    let text = folder.run(&["verify", "d.toml", "--max-boxes", "1"]).exits(3);
+    let text = text.says(&["in 1 region: 100 % of the workspace"]);
+    assert!(!text.stdout.contains("volume"), "{}", text.stdout);
+}
+
+/// Of a strut's speed the test is of a polynomial, of which the value at a place tells nothing.
+#[test]
+fn room_in_a_joint_speed_is_no_tie() {
+    let folder = Folder::new();
+    let design = include_str!("../designs/kernel/hexapod-mssm.toml");
+    let with = "[requirements]\njoint_speed = { tool = 1, max = 1.8 }";
+    folder.write("d.toml", design.replace("[requirements]", with));
+    let run = folder.run(&["verify", "d.toml", "--timeout", "0.001", "--format", "json"]).exits(3);
+    let answer: Value = serde_json::from_str(&run.stdout).unwrap();
+    let open = answer["undecided"]["open"].as_array().unwrap();
+    let of_speeds = open.iter().filter(|one| one["obligation"] == "joint_speed");
+    let help: Vec<&str> = of_speeds.map(|one| one["help"].as_str().unwrap()).collect();
+    assert!(help.len() == 6 && help.iter().all(|help| help.contains("budget")), "{help:?}");
+    let margin = answer["undecided"]["worst_box"]["margin"].as_f64().unwrap();
+    assert!(margin > 0.1, "{margin}");
 }

@@ -334,3 +334,21 @@ fn what_is_no_speed_is_refused_with_the_option_and_what_is_accepted() {
     folder.run(&["summary", "missing.toml"]).exits(2).complains(&["missing.toml"]);
     assert_eq!(folder.names(), [""; 0]);
 }
+
+/// By the paper, psi of the cube is from `1/psi_max` to `psi_max`, exactly.
+#[test]
+fn an_irrational_psi_of_the_papers_cube_is_enclosed() {
+    let folder = Folder::new();
+    folder.write(
+        "d.toml",
+        "[mechanism]\nkind = \"orthoglide\"\n[workspace]\ncube = 200\n[requirements]\ntransmission = { max = \"sqrt(3)\" }\n",
+    );
+    let answer = summary(&folder, &["d.toml"], 0);
+    for (end, exact) in [("least", 3f64.sqrt().recip()), ("greatest", 3f64.sqrt())] {
+        let row = find(&answer, "transmission", end);
+        for end in ["certified", "reached"] {
+            assert!((number(&row[end]) - exact).abs() < 1e-15, "{row}");
+        }
+        assert_ne!(row["certified"], row["reached"]);
+    }
+}

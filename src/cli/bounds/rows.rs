@@ -5,7 +5,7 @@ use crate::cli::certify::{self, Unwritten};
 use crate::cli::Failure;
 use crate::exact::decimal::{rounded, Toward};
 use crate::exact::Exact;
-use crate::report::{exactly, CertificateFile};
+use crate::report::CertificateFile;
 use crate::search::solver::enclose::{Enclosed, NotEnclosed};
 use crate::search::solver::extremes::{of_cube, Extreme};
 use num_rational::BigRational;
@@ -162,7 +162,7 @@ impl Row {
 
 fn witness_point(certificate: &Certificate) -> Option<Vec<Exact>> {
     match &certificate.proof {
-        Proof::Witness(witness) => witness.point.iter().map(exactly).collect(),
+        Proof::Witness(witness) => witness.point.iter().map(Exact::of).collect(),
         _ => None,
     }
 }

@@ -129,9 +129,10 @@ pub(super) fn rows(
     let questions: Vec<Question> =
         questions.chain(turning.map(|(leg, _)| Question::Angle(leg))).collect();
     let mut bar = arguments.effort.bar();
-    let singular = bar
-        .run("singularities", questions.len() + 1, |control| is_singular(claim, budget, control))?;
     let count = questions.len();
+    let own = budget.shared(turns(count) + 1);
+    let singular =
+        bar.run("singularities", count + 1, |control| is_singular(claim, own, control))?;
     let asked = |(number, question): (usize, Question)| {
         let name = format!("{} of {count}, {}", number + 1, question.name());
         Asked { question, name, ends: Vec::new(), had: Duration::ZERO, rows: None }

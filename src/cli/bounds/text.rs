@@ -116,13 +116,13 @@ pub(super) fn text(
         wrap(&mut out, &text, 2);
     }
     // The joint speed of a unit of tool speed says so in its name.
-    let of_units = |row: &&Row| !row.is_asked && row.unit.is_some() && row.not_enclosed.is_none();
     let said = |(name, text): (&str, &'static str)| {
-        rows.iter().filter(of_units).any(|row| row.given.contains_key(name)).then_some(text)
+        let of_units = |row: &Row| !row.is_asked && row.not_enclosed.is_none();
+        rows.iter().any(|row| of_units(row) && row.name.starts_with(name)).then_some(text)
     };
     let units = [
-        ("joint", "stiffness is of joints with a stiffness of 1 each"),
-        ("tool", "joint force is that of a tool force of 1"),
+        ("stiffness", "stiffness is of joints with a stiffness of 1 each"),
+        ("joint force", "joint force is that of a tool force of 1"),
     ];
     let units: Vec<&str> = units.into_iter().filter_map(said).collect();
     if !units.is_empty() {

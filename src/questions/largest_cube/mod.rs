@@ -212,7 +212,7 @@ fn certified(
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Result<Option<Inside>, NoAnswer> {
-    let size = approximate(side).unwrap_or(1.0);
+    let Some(size) = approximate(side) else { return Ok(None) };
     let centre = rounded(&Cube { centre: *centre, side: size }, gap);
     if !contains(claim, &centre) {
         return Ok(None);

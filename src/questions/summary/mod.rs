@@ -27,7 +27,7 @@ pub use signed::signed;
 
 use crate::exact::decimal::{rounded, Toward};
 use crate::exact::Exact;
-use crate::report::{exactly, Counterexample, Facts, Outcome, Report};
+use crate::report::{Counterexample, Facts, Outcome, Report};
 use crate::search::solver::enclose::{enclose, is_singular, reached, Enclosed, NotEnclosed};
 use crate::search::solver::extremes::Extreme;
 use crate::search::solver::value::{Bounded, Coordinates};
@@ -160,7 +160,10 @@ pub fn summary(
     let left = 1 + turns(all.len()) + turns(shares);
     let singular = match certified {
         true => Ok(false),
-        false => steps.next(control, left, |control| is_singular(claim, budget, control)),
+        false => {
+            let own = budget.shared(left);
+            steps.next(control, left, |control| is_singular(claim, own, control))
+        }
     };
     let singular = match singular {
         Err(NotEnclosed::Cancelled) => false,
@@ -234,6 +237,9 @@ pub fn summary(
     }))
 }
 
+/// Fractional bits in which what is known exactly is told where it is not rational.
+const KNOWN_BITS: u32 = 192;
+
 /// Where a quantity ends.
 fn ends(
     claim: &MachineClaim,
@@ -244,14 +250,13 @@ fn ends(
     control: &mut Control<'_>,
 ) -> Result<Vec<End>, NotEnclosed> {
     match asked {
-        Asked::Known(_, value) => {
+        Asked::Known(greatest, value) => {
             // Which the design's own certificate says.
-            let value = value.as_rational().filter(|_| certified).cloned();
-            value.ok_or(NotEnclosed::Undecided).map(|value| {
-                let reached = Some(value.clone());
-                let relative = Some(BigRational::from_integer(0.into()));
-                vec![End { certified: value, reached, relative }]
-            })
+            let ends = value.ends(KNOWN_BITS).filter(|_| certified);
+            let [least, most] = ends.ok_or(NotEnclosed::Undecided)?;
+            let relative = Some((&most - &least) / &least);
+            let (certified, reached) = if *greatest { (most, least) } else { (least, most) };
+            Ok(vec![End { certified, reached: Some(reached), relative }])
         }
         Asked::Extreme(extreme) => {
             Ok(vec![End::from(enclose(claim, extreme, gap, budget, control)?)])
@@ -304,7 +309,7 @@ fn required(claim: &MachineClaim, extreme: &Extreme) -> Option<BigRational> {
         |own: &Requirement| Bounded { requirement: own.clone(), ..extreme.bounded().clone() };
     let mut bounds = own.filter_map(|own| match (&bounded(own).bound(), extreme.is_greatest()) {
         (Bound::Min(bound), false) | (Bound::Max(bound), true) => {
-            exactly(bound)?.as_rational().cloned()
+            Exact::of(bound)?.as_rational().cloned()
         }
         _ => None,
     });

@@ -3,7 +3,7 @@
 use super::asked::Asked;
 use super::{End, Found};
 use crate::exact::Exact;
-use crate::report::{exactly, Facts, FreeParameter};
+use crate::report::{Facts, FreeParameter};
 use crate::search::solver::extremes::Extreme;
 use crate::search::solver::sample::{Quality, Worst};
 use crate::search::solver::value::Bounded;
@@ -212,5 +212,5 @@ fn within(ends: &[Expression; 2], sector: &[End]) -> Option<(BigRational, Option
 }
 
 fn enclosed(x: &Expression) -> Option<[BigRational; 2]> {
-    exactly(x)?.ends(BITS)
+    Exact::of(x)?.ends(BITS)
 }

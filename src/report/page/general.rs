@@ -10,7 +10,7 @@ use super::scene::{Scene, Slice};
 use super::shape::shape;
 use super::subdivision::{pairs, Root, Subdivision};
 use crate::exact::decimal::{exact, significant};
-use crate::report::exactly;
+use crate::exact::Exact;
 use crate::report::place::angle_of;
 use crate::report::text::machine;
 use crate::report::{placed, pose_text};
@@ -434,7 +434,7 @@ pub fn counterexample(
     claim: &MachineClaim,
     witness: &kernel::Witness,
 ) -> (Vec<(String, String)>, String) {
-    let number = |x: &Expression| exactly(x).map_or_else(|| x.to_string(), |x| exact(&x));
+    let number = |x: &Expression| Exact::of(x).map_or_else(|| x.to_string(), |x| exact(&x));
     let list = |x: &[Expression]| {
         let all: Vec<String> = x.iter().map(number).collect();
         format!("({})", all.join(", "))

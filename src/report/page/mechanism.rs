@@ -1,8 +1,8 @@
 //! A kernel claim in words and tables: machine, workspace, requirements, parameters.
 
 use crate::exact::decimal::begun;
+use crate::exact::Exact;
 use crate::report::escape::xml;
-use crate::report::exactly;
 use crate::report::kernel::parameter;
 use crate::search::solver::value::name_of;
 use orthocert_kernel::claim::{
@@ -20,7 +20,7 @@ pub const LONGEST: u32 = 20;
 
 /// A number as a decimal; where that has too many digits, those that it begins with, and an ellipsis.
 pub fn number(x: &Expression) -> String {
-    exactly(x).map_or_else(|| x.to_string(), |x| begun(&x, LONGEST))
+    Exact::of(x).map_or_else(|| x.to_string(), |x| begun(&x, LONGEST))
 }
 
 fn numbers(all: &[Expression]) -> String {

@@ -2,8 +2,8 @@
 //! words stand below it, folded.
 
 use super::mechanism::{number, LETTERS};
+use crate::exact::Exact;
 use crate::report::escape::xml;
-use crate::report::exactly;
 use orthocert_checker::certificate::Verdict;
 use orthocert_checker::statement;
 use orthocert_kernel::certificate::Claim;
@@ -41,7 +41,7 @@ pub fn theorem(claim: &Claim, verdict: Verdict) -> String {
 /// Writes every number that is no name's as [`number`] does.
 pub fn in_decimals(of: &mut impl Numbers) {
     for x in of.numbers_mut() {
-        if exactly(x).is_some() {
+        if Exact::of(x).is_some() {
             *x = Expression::Name(number(x));
         }
     }

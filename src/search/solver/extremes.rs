@@ -12,9 +12,6 @@ use orthocert_kernel::quantity::TABLE;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
-/// Longest text of an exact number.
-const MOST_DIGITS: usize = 1000;
-
 /// One end of a quantity.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Extreme {
@@ -145,8 +142,7 @@ impl Extreme {
                 && (own.given == one.given || is_speed)
                 && (own.leg.is_none() || own.leg == one.leg)
         };
-        let rational =
-            |x: &Expression| Exact::parse(&x.to_string(), MOST_DIGITS).ok()?.as_rational().cloned();
+        let rational = |x: &Expression| Exact::of(x)?.as_rational().cloned();
         let of = |own: &Requirement| {
             let x = match (&own.bound, &one.bound) {
                 (Bound::Min(x) | Bound::Within([x, _]), Bound::Min(_)) => x,
@@ -247,7 +243,7 @@ impl Extreme {
 /// The extremes of psi that the paper's cube has by definition, with whether each is the greatest.
 pub fn of_cube(claim: &MachineClaim) -> Vec<(bool, Exact)> {
     let Some(Bound::Max(psi)) = defining(claim).map(|own| own.bound) else { return Vec::new() };
-    let Ok(psi_max) = Exact::parse(&psi.to_string(), MOST_DIGITS) else { return Vec::new() };
+    let Some(psi_max) = Exact::of(&psi) else { return Vec::new() };
     let inverse = Exact::integer(1).over(psi_max.clone()).ok();
     // The least psi is 1/psi_max at Q2 for psi_max <= 2 only.
     let is_least = psi_max.compare(&Exact::integer(2)).is_some_and(Ordering::is_le);

@@ -179,7 +179,7 @@ pub fn verify(
     let search = |control: &mut Control<'_>| {
         // Of platforms that turn it takes millions of boxes to come where they are hopeless. Half of the time is for those.
         let is_turned = searched.derived.is_some() && !searched.orientation.is_empty();
-        if is_turned && !ways.holds(false) {
+        if is_turned && !ways.holds(false, control) {
             let half = Ways::new(&prover, (&points, MOST_APART), budget.shared(2));
             let found = control.part([0.0, 0.5], |control| half.apart_or_in_parts(control));
             return found
@@ -349,8 +349,13 @@ pub fn proof_about(
         true => Some(ways.tree(true, control)),
         false => ways.apart_or_in_parts(control),
     };
-    let found = found.or_else(|| control.part(rest, search)).ok_or(Stop::Hopeless)?;
-    let nodes = found.proof()?;
+    let found = found.or_else(|| control.part(rest, search)).ok_or(Stop::Hopeless);
+    let nodes = found.and_then(Outcome::proof).map_err(|stop| match stop {
+        // What there was no time to see is not hopeless.
+        Stop::Hopeless if control.is_cancelled() => Stop::Cancelled,
+        Stop::Hopeless if budget.is_over() => Stop::Time,
+        stop => stop,
+    })?;
     let found = control.part(checks, |_| accepted(claim, &prover, nodes));
     found.map(|(certificate, _)| certificate).map_err(|_| Stop::Exhausted)
 }

@@ -283,7 +283,8 @@ impl<'a> Sampler<'a> {
         let part = |(&j, x): (&usize, &Expression)| {
             let (lo, hi) = self.parameters[j];
             let x = approximate(x)? / (self.problem.inputs[j].scale as f64).exp2();
-            Some(((x - lo) / (hi - lo)).clamp(0.0, 1.0))
+            // Ends that are one double are one machine.
+            Some(if lo < hi { ((x - lo) / (hi - lo)).clamp(0.0, 1.0) } else { 0.5 })
         };
         let t = self.free.iter().zip(machine).map(part).collect::<Option<_>>()?;
         Some(Place { u, t })

@@ -159,16 +159,18 @@ impl<'a, 'p> Ways<'a, 'p> {
         }
     }
 
-    /// Whether every test holds next to each of the points, with directions apart if they are.
-    pub fn holds(&self, apart: bool) -> bool {
-        self.points.iter().all(|point| self.prover.holds_next_to(point, apart))
+    /// Whether every test holds next to each of the points, with directions apart if they are; not where there is no time
+    /// left to see it.
+    pub fn holds(&self, apart: bool, control: &Control<'_>) -> bool {
+        let goes_on = || !control.is_cancelled() && !self.budget.is_over();
+        self.points.iter().all(|point| goes_on() && self.prover.holds_next_to(point, apart))
     }
 
     /// A proof of at most so many boxes of the workspace, with directions apart where one is hopeless without, or what was
     /// cancelled; none where tests fail so next to the points, and it is not looked for twice.
     pub fn apart(&self, most: usize, control: &mut Control<'_>) -> Option<Outcome> {
         self.prover.problem.derived.as_ref().filter(|_| most > self.tried_apart.get())?;
-        if !self.holds(true) {
+        if !self.holds(true, control) {
             return None;
         }
         let ends = Ends { hopeless: true, ..Ends::default() };
@@ -177,13 +179,12 @@ impl<'a, 'p> Ways<'a, 'p> {
         found.is_final().then_some(found)
     }
 
-    /// A proof where boxes of the workspace are hopeless.
+    /// A proof where boxes of the workspace are hopeless, or what was cancelled.
     pub fn apart_or_in_parts(&self, control: &mut Control<'_>) -> Option<Outcome> {
-        let found = self.apart(FEW_APART, control).or_else(|| {
+        self.apart(FEW_APART, control).or_else(|| {
             let all = InParts { about: None, times: 1, apart: true };
             self.in_parts(&all, usize::MAX, control)
-        });
-        found.filter(Outcome::is_proof)
+        })
     }
 
     /// A proof with tolerances in parts, where no box of the workspace is small enough, or what was cancelled; of at most so
