@@ -36,6 +36,8 @@ pub enum ImportError {
         file: String,
         /// The setting, with its section.
         setting: String,
+        /// What it is of the machine, where that is known.
+        is: Option<String>,
     },
     /// A setting whose value is not of the kind that is needed.
     BadValue {
@@ -113,8 +115,9 @@ impl fmt::Display for ImportError {
             ImportError::Syntax { file, line, expected } => {
                 write!(f, "{}:{line}: found a line that the firmware would not read; accepted: {expected}", p(file))
             }
-            ImportError::Missing { file, setting } => {
-                write!(f, "{}: {}: not set", p(file), p(setting))
+            ImportError::Missing { file, setting, is } => {
+                write!(f, "{}: {}: not set", p(file), p(setting))?;
+                is.iter().try_for_each(|is| write!(f, "; it is {is}"))
             }
             ImportError::BadValue { file, line, setting, found, expected } => write!(
                 f,

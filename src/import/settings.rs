@@ -87,7 +87,7 @@ impl Settings {
 
     /// A number greater than 0 that the firmware demands.
     pub fn required(&mut self, key: &str, became: &str) -> Result<Number, ImportError> {
-        self.positive(key, became)?.ok_or_else(|| self.missing(key))
+        self.positive(key, became)?.ok_or_else(|| self.lacks(key, became))
     }
 
     /// A number, or the default that `source`, a file of the firmware, gives.
@@ -143,7 +143,13 @@ impl Settings {
 
     /// That `key` is not set.
     pub fn missing(&self, key: &str) -> ImportError {
-        ImportError::Missing { file: self.file.clone(), setting: key.to_owned() }
+        ImportError::Missing { file: self.file.clone(), setting: key.to_owned(), is: None }
+    }
+
+    /// The same of what it is of the machine.
+    pub fn lacks(&self, key: &str, is: &str) -> ImportError {
+        let (file, setting) = (self.file.clone(), key.to_owned());
+        ImportError::Missing { file, setting, is: Some(is.to_owned()) }
     }
 
     /// That a design cannot be made of this; `reason` is a sentence without its full stop.

@@ -418,7 +418,7 @@ fn what_may_matter_is_refused_by_file_line_and_key() {
         ("print_radius: 80", "print_radius: 80\n[DEFAULT]\narm_length: 3", "[DEFAULT] arm_length"),
         ("print_radius: 80", "print_radius: 80\n[stepper_A]\narm_length: 3", "[stepper_A] arm_len"),
         ("step_pin: PL3", "trim: 0.2", "[stepper_c] trim = 0.2"),
-        ("microsteps: 16\nendstop_pin", "endstop_pin", "[stepper_a] microsteps: not set"),
+        ("microsteps: 16\nendstop_pin", "endstop_pin", "[stepper_a] microsteps: not set; it is the length of a step, in the workspace's radius"),
         ("endstop_pin: PE4", "endstop_pin: probe:z_virtual_endstop", "endstop_pin"),
         ("rotation_distance = 40", "nothing", "would not read"),
         ("rotation_distance = 40", "", "[stepper_c] rotation_distance: not set"),

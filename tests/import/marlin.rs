@@ -167,7 +167,7 @@ fn what_depends_on_other_headers_is_refused() {
         ("#define DELTA_RADIUS DELTA_RADIUS", "found \"DELTA_RADIUS\""),
         ("#define DELTA_RADIUS 97 / 0", "found \"97 / 0\""),
         ("#define DELTA_RADIUS", "found \"\""),
-        ("", "DELTA_RADIUS: not set"),
+        ("", "DELTA_RADIUS: not set; it is the towers' distance from the centre"),
         ("#define DELTA_RADIUS 300", "less than the rods' length"),
         ("#define DELTA_RADIUS -97", "less than the rods' length"),
         ("#define DELTA_RADIUS 97\n#endif", "Configuration.h:6: found a line"),

@@ -257,7 +257,7 @@ impl Header<'_> {
     }
 
     fn required(&mut self, key: &str, became: &str) -> Result<Number, ImportError> {
-        self.number(key, became)?.ok_or_else(|| self.settings.missing(key))
+        self.number(key, became)?.ok_or_else(|| self.settings.lacks(key, became))
     }
 
     /// Three numbers; zeros if they are not defined.
