@@ -150,10 +150,19 @@ pub fn shares(
     let bounds = at_once(deviations.len(), 0, control, |number, turns, control| {
         bound(deviations[number], budget.shared(turns), control)
     });
+    let whole = found.iter().find(|found| found.asked.of().0 == "accuracy");
+    let together = whole.and_then(|found| match found.ends.as_deref() {
+        Ok([End { certified, .. }]) => Some(certified.clone()),
+        _ => None,
+    });
     let (mut rows, mut not_enclosed) = (Vec::new(), Vec::new());
     for bound in bounds {
         match bound? {
-            Some((name, Ok(certified))) => rows.push((name, certified)),
+            // With all at once, others may be 0.
+            Some((name, Ok(certified))) => {
+                let all = together.clone().unwrap_or_else(|| certified.clone());
+                rows.push((name, certified.min(all)));
+            }
             Some((name, Err(_))) => not_enclosed.push(named(&name)),
             None => {}
         }
@@ -169,13 +178,9 @@ pub fn shares(
         let share = sum.as_ref().and_then(of_sum);
         Share { leg, parameter, certified: Exact::Rational(bound), share }
     };
-    let whole = found.iter().find(|found| found.asked.of().0 == "accuracy");
-    let together = whole.and_then(|found| match found.ends.as_deref() {
-        Ok([End { certified, .. }]) => Some(Exact::Rational(certified.clone())),
-        _ => None,
-    });
     let alone = rows.into_iter().map(share).collect();
-    Ok(Some(Shares { alone, sum: sum.map(Exact::Rational), together, not_enclosed }))
+    let [sum, together] = [sum, together].map(|x| x.map(Exact::Rational));
+    Ok(Some(Shares { alone, sum, together, not_enclosed }))
 }
 
 /// A deviation in words.
