@@ -117,6 +117,13 @@ pub(super) fn text(
             "* The time was up, or it was interrupted: with more time the ends may be nearer to each other.",
             2,
         );
+        if rows.iter().any(|row| row.out_of_time && row.leg.is_some()) {
+            wrap(
+                &mut out,
+                "Legs are ranked by what was found: their order may be that of time alone.",
+                2,
+            );
+        }
     }
     if let Some(each) = &arguments.each {
         // Without a unit, seconds.
