@@ -143,13 +143,13 @@ impl Settings {
 
     /// That `key` is not set.
     pub fn missing(&self, key: &str) -> ImportError {
-        ImportError::Missing { file: self.file.clone(), setting: key.to_owned(), is: None }
+        self.lacks(key, None)
     }
 
-    /// The same of what it is of the machine.
-    pub fn lacks(&self, key: &str, is: &str) -> ImportError {
-        let (file, setting) = (self.file.clone(), key.to_owned());
-        ImportError::Missing { file, setting, is: Some(is.to_owned()) }
+    /// The same with what it is of the machine, where that is known.
+    pub fn lacks<'a>(&self, key: &str, is: impl Into<Option<&'a str>>) -> ImportError {
+        let is = is.into().map(str::to_owned);
+        ImportError::Missing { file: self.file.clone(), setting: key.to_owned(), is }
     }
 
     /// That a design cannot be made of this; `reason` is a sentence without its full stop.

@@ -7,7 +7,7 @@ use super::{Counterexample, Near, Row, Setting};
 use crate::exact::decimal::{approximate, exact, readable, rounded, significant, Toward};
 use crate::exact::{Exact, MAX_DIGITS};
 use crate::report::requirement::{rule_of, SINGULARITY};
-use crate::search::solver::sample::{Place, Quality, Sampler, Worst};
+use crate::search::solver::sample::{At, Place, Quality, Sampler, Worst};
 use crate::search::solver::search::Open;
 use crate::search::solver::value::{coordinates, with_unit, Bounded};
 use crate::search::solver::violation::nearest_points;
@@ -349,9 +349,10 @@ impl<'a> Facts<'a> {
         // No clearance less than none is claimed.
         let touch = self.bounded(quality).is_some_and(|bounded| bounded.is_clearance());
         let value = value.map(|value| if touch { value.max(0.0) } else { value });
-        let is_near = |x: &Expression| solver::approximate(x).is_some();
-        let is_singular = value.is_some_and(f64::is_infinite) && witness.point.iter().all(is_near);
         let Some(value) = value.and_then(BigRational::from_f64) else {
+            let is_near = |x: &Expression| solver::approximate(x).is_some();
+            let is_singular =
+                value.is_some_and(f64::is_infinite) && witness.point.iter().all(is_near);
             // Beyond the doubles nothing is known of it but what is refuted.
             return Some(match is_singular {
                 true => format!("{name} has no bound: M is singular there"),
@@ -425,13 +426,9 @@ impl<'a> Facts<'a> {
     fn worst_box(&self, open: &[Open]) -> Option<WorstBox> {
         let stride = open.len().div_ceil(MOST_BOXES).max(1);
         let at_centre = |item: &Open| {
-            let place = self.sampler.place_in(&item.cell);
-            let values = self.sampler.at(&place);
+            let values = self.sampler.at(&self.sampler.place_in(&item.cell));
             let all = item.obligations.iter().map(|&number| Quality::Obligation(number));
-            let margins = all.map(|quality| {
-                let margin = self.sampler.margin(quality, &values);
-                (self.relative(&Worst { quality, place: place.clone(), margin }), quality)
-            });
+            let margins = all.map(|quality| (self.relative_margin(quality, &values), quality));
             margins.min_by(|a, b| a.0.total_cmp(&b.0))
         };
         let boxes = open.iter().step_by(stride).filter_map(|item| Some((item, at_centre(item)?)));
@@ -454,11 +451,14 @@ impl<'a> Facts<'a> {
             let is_open =
                 |item: &&Open| numbers.iter().any(|number| item.obligations.contains(number));
             let boxes = || undecided.open.iter().filter(is_open);
-            let qualities = || numbers.iter().map(|&number| Quality::Obligation(number));
-            let found = |quality| worst.iter().find(|found| found.quality == quality);
-            let margin = |quality: &Quality| found(*quality).map(|found| self.relative(found));
-            let far = |quality: &Quality| margin(quality).unwrap_or(f64::INFINITY);
-            let quality = qualities().min_by(|a, b| far(a).total_cmp(&far(b)))?;
+            let margins = numbers.iter().map(|&number| {
+                let quality = Quality::Obligation(number);
+                let found = worst.iter().find(|found| found.quality == quality);
+                let at = |found: &Worst| self.sampler.at(&found.place);
+                (found.map(|found| self.relative_margin(quality, &at(found))), quality)
+            });
+            let far = |margin: Option<f64>| margin.unwrap_or(f64::INFINITY);
+            let (margin, quality) = margins.min_by(|a, b| far(a.0).total_cmp(&far(b.0)))?;
             let rule =
                 self.bounded(quality).map_or("singularity".to_owned(), |b| b.requirement.quantity);
             let reason = match undecided.stop {
@@ -472,27 +472,26 @@ impl<'a> Facts<'a> {
                 boxes: count,
                 share: boxes().map(share).fold(0.0, sum_above),
                 reasons: vec![(reason.to_owned(), count)],
-                help: self.help(quality, undecided.stop, margin(&quality)),
+                help: self.help(quality, undecided.stop, margin),
             })
         };
         all.into_iter().filter_map(of).collect()
     }
 
     /// The margin relative to the bound, which that of a joint speed's test, a product of several quantities, is not.
-    fn relative(&self, found: &Worst) -> f64 {
+    fn relative_margin(&self, quality: Quality, values: &At<'_>) -> f64 {
         let of_speed = || {
-            let bounded = self.bounded(found.quality)?;
-            if bounded.requirement.quantity != "joint_speed" {
-                return None;
-            }
-            let values = self.sampler.at(&found.place);
-            let value = bounded.known(self.problem, &self.sampler, &values)?;
-            match &bounded.requirement.bound {
-                Bound::Max(max) => Some(1.0 - value / solver::approximate(max)?),
+            let bounded = self.bounded(quality)?;
+            match (bounded.requirement.quantity.as_str(), &bounded.requirement.bound) {
+                ("joint_speed", Bound::Max(max)) => {
+                    let value = bounded.known(self.problem, &self.sampler, values)?;
+                    Some(1.0 - value / solver::approximate(max)?)
+                }
                 _ => None,
             }
         };
-        of_speed().filter(|margin| margin.is_finite()).unwrap_or(found.margin)
+        let of_speed = of_speed().filter(|margin| margin.is_finite());
+        of_speed.unwrap_or_else(|| self.sampler.margin(quality, values))
     }
 
     fn help(&self, quality: Quality, stop: Stop, margin: Option<f64>) -> String {

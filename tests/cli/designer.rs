@@ -230,53 +230,18 @@ fn a_paving_of_a_box_of_a_cylinder_says_how_it_is_checked() {
     folder.run(&["check", "p", "--design", "d.toml", "--box", region]).exits(0);
 }
 
-const ROTARY: &str = r#"
-[mechanism]
-kind = "translational"
-[[mechanism.legs]]
-drive = "arm"
-anchor = [2, 0, 0]
-axis = [0, 1, 0]
-reference = [1, 0, 0]
-arm = 3.5
-length = 8
-mode = "+"
-[[mechanism.legs]]
-drive = "arm"
-anchor = [-1, "sqrt(3)", 0]
-axis = ["-sqrt(3)/2", "-1/2", 0]
-reference = ["-1/2", "sqrt(3)/2", 0]
-arm = 3.5
-length = 8
-mode = "+"
-[[mechanism.legs]]
-drive = "arm"
-anchor = [-1, "-sqrt(3)", 0]
-axis = ["sqrt(3)/2", "-1/2", 0]
-reference = ["-1/2", "-sqrt(3)/2", 0]
-arm = 3.5
-length = 8
-mode = "+"
-[workspace]
-min = [-0.5, -0.5, -8]
-max = [0.5, 0.5, -7.5]
-[requirements]
-joint_force = { tool = 50, max = 50000 }
-"#;
-
 #[test]
 fn a_joint_force_is_not_said_to_be_of_another_tool_force() {
     let folder = Folder::new();
     let of_one = "joint force is that of a tool force of 1";
-    folder.write("d.toml", ROTARY);
     let bounds = ["bounds", "d.toml", "--relative", "0.1"];
+    let design = include_str!("../designs/rotary-delta-linuxcnc.toml");
+    folder.write("d.toml", design);
+    folder.run(&bounds).exits(0).says(&[of_one]);
+    let with = "[requirements]\njoint_force = { tool = 50, max = 50000 }";
+    folder.write("d.toml", design.replace("[requirements]", with));
     let own = folder.run(&bounds).exits(0).says(&["joint force"]);
     assert!(!own.stdout.contains(of_one), "{}", own.stdout);
-    folder.write(
-        "d.toml",
-        ROTARY.replace("joint_force = { tool = 50, max = 50000 }", "conditioning = { max = 9 }"),
-    );
-    folder.run(&bounds).exits(0).says(&[of_one]);
 }
 
 /// One box of a design with tests of one requirement that have the same words, as those of a joint's two sides.

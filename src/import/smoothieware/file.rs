@@ -252,18 +252,21 @@ impl Overridden {
             }
         }
     }
+
     /// Corrections of which `M665` names some: what becomes of the others depends on the firmware's revision
     /// (`LinearDeltaSolution::set_optional` has set most of them to 0).
     fn refuse_mixture(&self, settings: &mut Settings) {
-        let is_correction = |key: &str| key.starts_with("delta_tower") || key.ends_with("_trim");
         let letters: Vec<char> = self.command.words().map(|(letter, _)| letter).collect();
-        let all = LINEAR.into_iter().filter(|(_, key)| is_correction(key));
-        let (named, others): (Vec<_>, Vec<_>) =
-            all.partition(|(letter, _)| letters.contains(letter));
-        let is_named = |key: &str| named.iter().any(|(_, own)| *own == key);
-        for (letter, key) in others.into_iter().filter(|(_, key)| !is_named(key)) {
-            let is_set = settings.peek(key).is_some_and(|setting| !is_zero(setting));
-            if is_set && !named.is_empty() {
+        let named = LINEAR.into_iter().filter(|(letter, _)| letters.contains(letter));
+        let named: Vec<&str> = named.map(|(_, key)| key).collect();
+        let is_correction = |key: &str| key.starts_with("delta_tower") || key.ends_with("_trim");
+        if !named.iter().any(|key| is_correction(key)) {
+            return;
+        }
+        let others =
+            LINEAR.into_iter().filter(|(_, key)| is_correction(key) && !named.contains(key));
+        for (letter, key) in others {
+            if settings.peek(key).is_some_and(|setting| !is_zero(setting)) {
                 let (file, line) = (self.file.clone(), self.line);
                 let value = format!("no {letter}, where {key} is set");
                 settings.not_understood(Setting { file, line, key: "M665".to_owned(), value });

@@ -158,10 +158,10 @@ pub fn shares(
     let (mut rows, mut not_enclosed) = (Vec::new(), Vec::new());
     for bound in bounds {
         match bound? {
-            // With all at once, others may be 0.
+            // It is one of the cases of all at once.
             Some((name, Ok(certified))) => {
-                let all = together.clone().unwrap_or_else(|| certified.clone());
-                rows.push((name, certified.min(all)));
+                let less = together.clone().filter(|all| *all < certified);
+                rows.push((name, less.unwrap_or(certified)));
             }
             Some((name, Err(_))) => not_enclosed.push(named(&name)),
             None => {}
