@@ -9,9 +9,10 @@
 use num_rational::BigRational;
 use num_traits::FromPrimitive;
 use orthocert::design::Design;
+use orthocert::exact::arithmetic::number;
 use orthocert::search::solver::sample::{Place, Quality, Sampler};
 use orthocert::search::solver::value::Bounded;
-use orthocert::search::solver::{number, verify, Answer};
+use orthocert::search::solver::{verify, Answer};
 use orthocert::search::{Budget, Control};
 use orthocert_checker::certificate::Verdict;
 use orthocert_kernel::claim::{Bound, MachineClaim};
@@ -293,7 +294,7 @@ fn is_regular(random: &mut Random, sampler: &Sampler<'_>) -> bool {
 fn bounded(claim: &MachineClaim, bound: f64) -> Option<MachineClaim> {
     let mut claim = claim.clone();
     let billionths = BigRational::from_f64((bound * 1e9).round())?;
-    let bound = number(&(billionths / BigRational::from_integer(1_000_000_000.into())))?;
+    let bound = number(&(billionths / BigRational::from_integer(1_000_000_000.into())));
     let first = claim.require.first_mut()?;
     first.bound = match &first.bound {
         Bound::Min(_) => Bound::Min(bound),
@@ -403,12 +404,8 @@ fn run(designs: usize, max_boxes: usize, inside: f64, show: bool) {
         // The other end is no limit.
         if let Some(other) = claim.require.get_mut(1).filter(|_| asked.starts_with("tr")) {
             other.bound = match &other.bound {
-                Bound::Min(_) => {
-                    Bound::Min(number(&BigRational::new(1.into(), 1000.into())).expect("a number"))
-                }
-                _ => Bound::Max(
-                    number(&BigRational::from_integer(1_000_000.into())).expect("a number"),
-                ),
+                Bound::Min(_) => Bound::Min(number(&BigRational::new(1.into(), 1000.into()))),
+                _ => Bound::Max(number(&BigRational::from_integer(1_000_000.into()))),
             };
         }
         let Some((claim, place, kind)) = bounded_by(&mut random, &claim, inside) else { continue };

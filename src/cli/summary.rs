@@ -2,10 +2,11 @@
 
 use super::effort::{self, Effort};
 use super::{input, interrupt, print, Failure, Format, Status};
+use crate::exact::arithmetic::number;
 use crate::questions::summary::{summary, text, Question};
 use crate::report::text::headline_of;
 use crate::report::Outcome;
-use crate::search::solver::{number, verify};
+use crate::search::solver::verify;
 use num_rational::BigRational;
 use num_traits::Signed;
 use orthocert_kernel::number::Expression;
@@ -120,7 +121,7 @@ fn status(verdict: Outcome) -> Status {
 /// The positive number that an option's value is.
 fn positive(option: &str, text: &str, example: &str) -> Result<Expression, Failure> {
     let found = input::number(option, text)?;
-    let found = found.as_rational().filter(|x| x.is_positive()).and_then(number);
+    let found = found.as_rational().filter(|x| x.is_positive()).map(number);
     let accepted = format!("a rational number greater than 0, such as {example}");
     found.ok_or_else(|| input::refused(option, text, &accepted))
 }

@@ -4,20 +4,10 @@ use super::document::Value;
 use super::error::{Defect, DesignError};
 use super::leg;
 use super::number::{self, WITHIN_LIMITS};
+use crate::exact::arithmetic;
 use crate::exact::Exact;
-use num_bigint::BigInt;
-use num_integer::Integer;
-use num_rational::BigRational;
-use num_traits::{One, Signed, Zero};
 use orthocert_kernel::claim::Quantity;
 use orthocert_kernel::number::{Expression, Operator};
-
-/// Most decimals of a literal; a number of more is written as a fraction.
-const MOST_PLACES: u32 = 40;
-/// Bits of a denominator by which the kernel divides: it takes the reciprocal, of which it knows few bits if it is small.
-/// Of greater ones the decimals are left in the numerator, of so many places at most.
-const MOST_BITS: u64 = 64;
-const MOST_DECIMALS: u32 = 2100;
 
 /// The exact number that `value` is.
 pub(super) fn number(value: &Value<'_>) -> Result<Expression, DesignError> {
@@ -61,7 +51,7 @@ fn translated(number: &Exact) -> Expression {
     let of = |x: &Exact| translated(x).into();
     let binary = |operator, x: &Exact, y: &Exact| Expression::Binary(operator, of(x), of(y));
     match number {
-        Exact::Rational(x) => rational(x),
+        Exact::Rational(x) => arithmetic::number(x),
         Exact::Neg(x) => Expression::Neg(of(x)),
         Exact::Sqrt(x) => Expression::Sqrt(of(x)),
         Exact::Add(x, y) => binary(Operator::Add, x, y),
@@ -72,49 +62,10 @@ fn translated(number: &Exact) -> Expression {
     }
 }
 
-/// A decimal of few places, or a fraction.
-pub(super) fn rational(x: &BigRational) -> Expression {
-    let literal = |digits: BigInt, places: u32| {
-        let positive = Expression::Literal { digits: digits.abs(), places };
-        if digits.is_negative() {
-            Expression::Neg(positive.into())
-        } else {
-            positive
-        }
-    };
-    let (mut places, mut rest) = places(x.denom());
-    let most = if x.denom().bits() > MOST_BITS { MOST_DECIMALS } else { MOST_PLACES };
-    if places > most || most == MOST_PLACES && !rest.is_one() {
-        (places, rest) = (0, x.denom().clone());
-    }
-    // In lowest terms, with the fewest decimals: no last zero.
-    let power = BigInt::from(10).pow(places);
-    let decimal = literal(x.numer() * (power / (x.denom() / &rest)), places);
-    match rest.is_one() {
-        true => decimal,
-        false => Expression::Binary(Operator::Div, decimal.into(), literal(rest, 0).into()),
-    }
-}
-
-/// For a denominator `2^a 5^b r`, `r` with neither factor, the least `p` such that `2^a 5^b` divides `10^p`, and `r`.
-fn places(denominator: &BigInt) -> (u32, BigInt) {
-    let mut rest = denominator.clone();
-    let mut count = |prime: u32| {
-        let (prime, mut times) = (BigInt::from(prime), 0);
-        loop {
-            let (quotient, remainder) = rest.div_rem(&prime);
-            if !remainder.is_zero() {
-                return times;
-            }
-            (rest, times) = (quotient, times + 1);
-        }
-    };
-    (count(2).max(count(5)), rest)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use num_bigint::BigInt;
 
     /// Texts, and how the kernel writes their numbers.
     const WRITTEN: &[(&str, &str)] = &[

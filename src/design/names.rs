@@ -1,6 +1,7 @@
 //! Names of parameters in numbers, and values for them.
 
-use super::exactly::{rational, written};
+use super::exactly::written;
+use crate::exact::arithmetic;
 use crate::exact::{Exact, NumberErrorKind};
 use num_rational::BigRational;
 use orthocert_kernel::claim::MachineClaim;
@@ -84,7 +85,7 @@ pub(super) fn put_in(x: &mut Expression, known: &[(&str, Expression)]) -> bool {
 
 fn fold(x: &mut Expression) {
     if let Some(value) = x.rational().filter(is_short) {
-        *x = rational(&value);
+        *x = arithmetic::number(&value);
         return;
     }
     match x {

@@ -1,8 +1,7 @@
 //! The best place for a cube in the region where a claim holds, in doubles: nothing rests on it.
 
-use crate::exact::arithmetic::apply;
+use crate::exact::arithmetic::{apply, number};
 use crate::questions::frontier::NoAnswer;
-use crate::search::solver::number;
 use crate::search::solver::sample::{Quality, Sampler};
 use crate::search::{Budget, Control, Progress};
 use num_rational::BigRational;
@@ -118,15 +117,11 @@ pub fn is_endless(cube: &Cube, size: f64) -> bool {
     cube.side > ENDLESS * size
 }
 
-/// The cube of this side about a centre, as a workspace; `None` if its numbers are too long for a
-/// claim.
-pub fn cube_about(centre: &[BigRational; 3], side: &Expression) -> Option<Workspace> {
-    let half = apply(Operator::Div, side, &Expression::integer(2))?;
-    let end = |operator| {
-        let ends = centre.iter().map(|x| apply(operator, &number(x)?, &half));
-        ends.collect::<Option<Vec<_>>>()
-    };
-    Some(Workspace::Box { min: end(Operator::Sub)?, max: end(Operator::Add)? })
+/// The cube of this side about a centre, as a workspace.
+pub fn cube_about(centre: &[BigRational; 3], side: &Expression) -> Workspace {
+    let half = apply(Operator::Div, side, &Expression::integer(2));
+    let end = |operator| centre.iter().map(|x| apply(operator, &number(x), &half)).collect();
+    Workspace::Box { min: end(Operator::Sub), max: end(Operator::Add) }
 }
 
 impl<'a> Cubes<'a> {

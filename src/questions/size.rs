@@ -10,15 +10,15 @@
 //! [`Family::excluded`] shows the latter for every placement at once of a cube with its edges along
 //! the axes: of turned cubes, which may fit a smaller machine, nothing is claimed.
 
-use crate::exact::arithmetic::{apply, at_most};
+use crate::exact::arithmetic::{apply, at_most, number};
 use crate::questions::frontier::{
     approach, bracket, decimal, About, Approach, Approached, Bracket, NoAnswer, Succeeds,
 };
 use crate::questions::largest_cube::exclude;
 use crate::questions::placement::{best_place, cube_about, is_endless, Centres, Placed};
 use crate::questions::tolerance::parameters;
+use crate::search::solver::approximate;
 use crate::search::solver::value::depends_on_length;
-use crate::search::solver::{approximate, number};
 use crate::search::{Budget, Control};
 use num_rational::BigRational;
 use num_traits::{FromPrimitive, ToPrimitive, Zero};
@@ -96,17 +96,16 @@ impl Family {
         Ok(Family { unknown, centre, out_of_time, expected, claim, side: side.clone() })
     }
 
-    /// The claim about the machine of size `x`, and its cube. `None` where the numbers become too
-    /// large.
+    /// The claim about the machine of size `x`, and its cube.
     pub fn claim(&self, x: &BigRational) -> Option<MachineClaim> {
         let centre = self.centre.each_ref().map(|c| c * x);
-        let workspace = cube_about(&centre, &number(&self.side)?)?;
+        let workspace = cube_about(&centre, &number(&self.side));
         Some(MachineClaim { workspace, ..self.machine(x)? })
     }
 
     /// The machine of size `x`, in the workspace of size 1.
     fn machine(&self, x: &BigRational) -> Option<MachineClaim> {
-        let factor = number(x)?;
+        let factor = number(x);
         let mut claim = self.claim.clone();
         let (legs, characteristic) = match &mut claim.mechanism {
             Mechanism::Translational(legs) => (legs, None),
@@ -116,7 +115,7 @@ impl Family {
             _ => return None,
         };
         if let Some(length) = characteristic {
-            *length = apply(Operator::Mul, length, &factor)?;
+            *length = apply(Operator::Mul, length, &factor);
         }
         for leg in legs {
             if let (Unknown::LegLength, Leg::Slider { length, .. }) = (self.unknown, &mut *leg) {
@@ -126,10 +125,10 @@ impl Family {
             for (kind, quantity) in parameters(leg) {
                 match quantity {
                     _ if kind.is_direction() => {}
-                    Quantity::Exactly(x) => *x = apply(Operator::Mul, x, &factor)?,
+                    Quantity::Exactly(x) => *x = apply(Operator::Mul, x, &factor),
                     Quantity::Between { min, max } => {
-                        *min = apply(Operator::Mul, min, &factor)?;
-                        *max = apply(Operator::Mul, max, &factor)?;
+                        *min = apply(Operator::Mul, min, &factor);
+                        *max = apply(Operator::Mul, max, &factor);
                     }
                 }
             }
@@ -148,7 +147,8 @@ impl Family {
         }
         let [min, max] = bounding_box(&self.claim.workspace)?;
         let within = |((min, max), x): ((&Expression, &Expression), &BigRational)| {
-            number(x).is_some_and(|x| at_most(min, &x) && at_most(&x, max))
+            let x = number(x);
+            at_most(min, &x) && at_most(&x, max)
         };
         min.iter().zip(&max).zip(&self.centre).all(within).then_some(Scope::Workspace)
     }
@@ -162,15 +162,11 @@ impl Family {
     /// out of reach. ∎
     fn centres(&self, x: &BigRational) -> Option<MachineClaim> {
         let [min, max] = match self.scope()? {
-            Scope::Everywhere => [vec![number(&-x)?; 3], vec![number(x)?; 3]],
+            Scope::Everywhere => [vec![number(&-x); 3], vec![number(x); 3]],
             Scope::Workspace => {
-                let factor = number(x)?;
-                let scaled = |end: Vec<Expression>| {
-                    let end = end.iter().map(|x| apply(Operator::Mul, x, &factor));
-                    end.collect::<Option<Vec<_>>>()
-                };
-                let [min, max] = bounding_box(&self.claim.workspace)?;
-                [scaled(min)?, scaled(max)?]
+                let factor = number(x);
+                let times = |x: &Expression| apply(Operator::Mul, x, &factor);
+                bounding_box(&self.claim.workspace)?.map(|end| end.iter().map(times).collect())
             }
         };
         Some(MachineClaim { workspace: Workspace::Box { min, max }, ..self.machine(x)? })
@@ -190,9 +186,9 @@ impl Family {
     ) -> Result<Approached<Box<Certificate>>, NoAnswer> {
         let side = number(&self.side);
         let to = Approach::from_afar(self.expected, Succeeds::Below, SHARE * gap);
-        approach(&to, budget, control, |size, budget, control| match (self.centres(size), &side) {
-            (Some(claim), Some(side)) => exclude(&claim, side, budget, control),
-            _ => Ok(None),
+        approach(&to, budget, control, |size, budget, control| match self.centres(size) {
+            Some(claim) => exclude(&claim, &side, budget, control),
+            None => Ok(None),
         })
     }
 
@@ -226,9 +222,9 @@ fn bounding_box(workspace: &Workspace) -> Option<[Vec<Expression>; 2]> {
         Workspace::Cylinder { center, radius, z: [low, high] } => {
             let end = |operator, z: &Expression| {
                 let around = center.iter().map(|x| apply(operator, x, radius));
-                around.chain([Some(z.clone())]).collect::<Option<Vec<_>>>()
+                around.chain([z.clone()]).collect()
             };
-            Some([end(Operator::Sub, low)?, end(Operator::Add, high)?])
+            Some([end(Operator::Sub, low), end(Operator::Add, high)])
         }
         Workspace::Cube { .. } => None,
     }
@@ -251,8 +247,8 @@ fn placed(
     let width = if width > 0.0 { width } else { 1.0 };
     let middles = ends.iter().map(|(low, high)| BigRational::from_f64((low + high) / 2.0));
     let centre = middles.collect::<Option<Vec<_>>>().and_then(|x| <[_; 3]>::try_from(x).ok());
-    let side = BigRational::from_f64(width).and_then(|width| number(&width));
-    let workspace = centre.zip(side).and_then(|(centre, side)| cube_about(&centre, &side));
+    let side = BigRational::from_f64(width).map(|width| number(&width));
+    let workspace = centre.zip(side).map(|(centre, side)| cube_about(&centre, &side));
     let workspace = workspace.ok_or_else(too_large)?;
     let centres = if diagonal { Centres::Diagonal } else { Centres::Anywhere };
     let claim = MachineClaim { workspace, ..claim.clone() };
@@ -312,7 +308,7 @@ fn as_box(claim: &MachineClaim) -> Result<MachineClaim, NoAnswer> {
     require.retain(|own| own.quantity != TRANSMISSION || matches!(own.bound, Bound::Max(_)));
     let of_psi = |own: &Requirement| match &own.bound {
         Bound::Max(max) if own.quantity == TRANSMISSION => {
-            let bound = Bound::Min(apply(Operator::Div, &number(1), max)?);
+            let bound = Bound::Min(apply(Operator::Div, &number(1), max));
             Some(Requirement { bound, ..own.clone() })
         }
         _ => None,

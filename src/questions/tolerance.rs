@@ -6,20 +6,20 @@
 //! one, and what is refuted for one `t` is refuted for every greater one. Between the two remains
 //! a band, where the tolerances are too wide to be proved in few parts.
 
-use crate::exact::arithmetic::apply;
+use crate::exact::arithmetic::{apply, number};
 use crate::exact::Exact;
 use crate::questions::frontier::{
     approach, frontier, unless_cancelled, Approach, Approached, Bracket, NoAnswer, Succeeds, Walk,
     LARGEST_FACTOR,
 };
+use crate::search::solver;
 use crate::search::solver::enclose::of_one_width;
 use crate::search::solver::sample::Worst;
-use crate::search::solver::{self, number};
 use crate::search::{Budget, Control, Stop};
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
 use orthocert_checker::certificate::{Certificate, Proof};
-use orthocert_kernel::claim::{Leg, MachineClaim, Mechanism, Quantity, Turning, Vector};
+use orthocert_kernel::claim::{Leg, MachineClaim, Mechanism, Quantity, Vector};
 use orthocert_kernel::number::{Expression, Operator};
 use orthocert_kernel::problem::Problem;
 use std::cell::Cell;
@@ -64,11 +64,6 @@ pub enum Kind {
     Arm,
 }
 
-/// How many legs a mechanism is given by.
-pub fn legs_of(mechanism: &Mechanism) -> usize {
-    legs(mechanism).len()
-}
-
 impl Kind {
     /// All of them.
     pub const ALL: [Kind; 7] = [
@@ -83,7 +78,7 @@ impl Kind {
 
     /// Those that a mechanism has.
     pub fn of(mechanism: &Mechanism) -> Vec<Kind> {
-        let mut legs = legs(mechanism).to_vec();
+        let mut legs = mechanism.legs().to_vec();
         let there: Vec<Kind> = legs.iter_mut().flat_map(parameters).map(|(kind, _)| kind).collect();
         Kind::ALL.into_iter().filter(|kind| there.contains(kind)).collect()
     }
@@ -110,14 +105,14 @@ impl Kind {
 /// Fractional bits of lengths of vectors, and of their squares, that are not rational.
 pub const ROOT_BITS: u32 = 256;
 
-/// The legs of a mechanism.
-fn legs(mechanism: &Mechanism) -> &[Leg] {
+/// The legs of a mechanism, to be changed; there are none where [`Mechanism::legs`] has none.
+pub(crate) fn legs_mut(mechanism: &mut Mechanism) -> &mut [Leg] {
     match mechanism {
-        Mechanism::Translational(legs)
-        | Mechanism::Planar(Turning { legs, .. })
-        | Mechanism::Spatial(Turning { legs, .. })
-        | Mechanism::Spherical(Turning { legs, .. }) => legs,
-        Mechanism::Orthoglide { .. } | Mechanism::Formulas(_) => &[],
+        Mechanism::Translational(legs) => legs,
+        Mechanism::Planar(own) | Mechanism::Spatial(own) | Mechanism::Spherical(own) => {
+            &mut own.legs
+        }
+        Mechanism::Orthoglide { .. } | Mechanism::Formulas(_) => &mut [],
     }
 }
 
@@ -157,7 +152,7 @@ pub fn squares(
     leg: Option<usize>,
 ) -> Option<[BigRational; 2]> {
     let mut all: Vec<[BigRational; 2]> = Vec::new();
-    let legs = legs(mechanism).iter().enumerate().filter(|(i, _)| leg.is_none_or(|leg| leg == *i));
+    let legs = mechanism.legs().iter().enumerate().filter(|(i, _)| leg.is_none_or(|leg| leg == *i));
     for (_, leg) in legs {
         let vectors = leg.quantities().into_iter().filter(|(name, ..)| kinds.contains(name));
         for (.., components) in vectors.filter(|(.., components)| !components.is_empty()) {
@@ -199,32 +194,25 @@ impl Scheme {
     }
 
     /// The claim about every machine of which the named parameters lie within `t` times their
-    /// weight of their nominal values: the middle of what the design admits. `None` where the
-    /// numbers become too large.
-    pub fn claim(&self, claim: &MachineClaim, t: &BigRational) -> Option<MachineClaim> {
+    /// weight of their nominal values: the middle of what the design admits.
+    pub fn claim(&self, claim: &MachineClaim, t: &BigRational) -> MachineClaim {
         let mut widened = claim.clone();
-        let legs = match &mut widened.mechanism {
-            Mechanism::Translational(legs)
-            | Mechanism::Planar(Turning { legs, .. })
-            | Mechanism::Spatial(Turning { legs, .. })
-            | Mechanism::Spherical(Turning { legs, .. }) => legs,
-            Mechanism::Orthoglide { .. } | Mechanism::Formulas(_) => return None,
-        };
         let wanted = |leg: usize| self.leg.is_none_or(|own| own == leg);
-        let legs = legs.iter_mut().enumerate().filter(|(leg, _)| wanted(*leg));
+        let legs = legs_mut(&mut widened.mechanism).iter_mut().enumerate();
+        let legs = legs.filter(|(leg, _)| wanted(*leg));
         for (kind, quantity) in legs.flat_map(|(_, leg)| parameters(leg)) {
             if let Some((_, weight)) = self.weights.iter().find(|(own, _)| *own == kind) {
-                *quantity = around(quantity, &(weight * t))?;
+                *quantity = around(quantity, &(weight * t));
             }
         }
-        Some(widened)
+        widened
     }
 
     /// The greatest number among the parameters that have the same unit as those named, which
     /// measures tolerances: directions with directions, lengths with lengths.
     fn scale(&self, claim: &MachineClaim) -> f64 {
         let directions = self.weights.iter().all(|(kind, _)| kind.is_direction());
-        let mut legs = legs(&claim.mechanism).to_vec();
+        let mut legs = claim.mechanism.legs().to_vec();
         let all = legs.iter_mut().flat_map(parameters);
         let same = all.filter(|(kind, _)| kind.is_direction() == directions);
         let sizes = same.filter_map(|(_, q)| solver::approximate(q.ends()[1])).map(f64::abs);
@@ -238,18 +226,18 @@ impl Scheme {
 }
 
 /// `nominal - t` to `nominal + t`.
-pub(crate) fn around(quantity: &Quantity, t: &BigRational) -> Option<Quantity> {
+pub(crate) fn around(quantity: &Quantity, t: &BigRational) -> Quantity {
     let nominal = match quantity {
         Quantity::Exactly(x) => x.clone(),
         Quantity::Between { min, max } => {
-            apply(Operator::Div, &apply(Operator::Add, min, max)?, &Expression::integer(2))?
+            apply(Operator::Div, &apply(Operator::Add, min, max), &Expression::integer(2))
         }
     };
     if t.is_zero() {
-        return Some(Quantity::Exactly(nominal));
+        return Quantity::Exactly(nominal);
     }
-    let end = |operator| apply(operator, &nominal, &number(t)?);
-    Some(Quantity::Between { min: end(Operator::Sub)?, max: end(Operator::Add)? })
+    let end = |operator| apply(operator, &nominal, &number(t));
+    Quantity::Between { min: end(Operator::Sub), max: end(Operator::Add) }
 }
 
 /// What is known of a widest tolerance before it is looked for.
@@ -341,7 +329,7 @@ fn below(walk: &Walk, t: f64) -> Walk {
 /// below the last.
 fn refuted(
     walk: &Walk,
-    claim: impl Fn(&BigRational) -> Option<MachineClaim>,
+    claim: impl Fn(&BigRational) -> MachineClaim,
     control: &mut Control<'_>,
 ) -> Result<Option<(BigRational, Box<Certificate>)>, NoAnswer> {
     let (mut walk, mut found) = (*walk, None);
@@ -349,7 +337,7 @@ fn refuted(
         let mut known: Option<Vec<Worst>> = None;
         let next = frontier(&walk, control, |t, control| {
             unless_cancelled(control, ())?;
-            let Some(claim) = claim(t) else { return Ok(None) };
+            let claim = claim(t);
             Ok(match &known {
                 Some(worst) => solver::refutation_from(&claim, worst),
                 None => solver::refutation_and_worst(&claim).and_then(|(found, worst)| {
@@ -377,13 +365,13 @@ fn certified(
     let ran_out = Cell::new(false);
     let prove = |to: &Approach, budget: Budget, control: &mut Control<'_>| {
         approach(to, budget, control, |t, budget, control| {
-            let Some(claim) = scheme.claim(claim, t) else { return Ok(None) };
+            let claim = scheme.claim(claim, t);
             let found = solver::proof_about(&claim, point, budget, control);
             ran_out.set(ran_out.get() || matches!(found, Err(Stop::Boxes | Stop::Time)));
             unless_cancelled(control, found.ok())
         })
     };
-    let first = to.at(to.first).and_then(|t| scheme.claim(claim, &t));
+    let first = to.at(to.first).map(|t| scheme.claim(claim, &t));
     let few = first.and_then(|claim| Some(of_one_width(budget, &Problem::new(&claim).ok()?)));
     let is_endless = claim.orientation.is_some() && budget.deadline.is_none();
     let few = few.filter(|few| is_endless && few.max_boxes < budget.max_boxes);

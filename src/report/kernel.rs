@@ -380,7 +380,7 @@ impl<'a> Facts<'a> {
         let (Some(requirement), Ok(x)) = (requirement, Exact::parse(text, MAX_DIGITS)) else {
             return false;
         };
-        let x = x.as_rational().and_then(crate::search::solver::number);
+        let x = x.as_rational().map(crate::exact::arithmetic::number);
         let (Bound::Min(bound) | Bound::Max(bound), Some(x)) = (&mut requirement.bound, x) else {
             return false;
         };

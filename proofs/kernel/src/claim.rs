@@ -45,6 +45,19 @@ pub enum Mechanism {
     Formulas(Formulas),
 }
 
+impl Mechanism {
+    /// The legs that it is given by. Those of the paper follow from the claim; of formulas there are none.
+    pub fn legs(&self) -> &[Leg] {
+        match self {
+            Mechanism::Translational(legs) => legs,
+            Mechanism::Planar(own) | Mechanism::Spatial(own) | Mechanism::Spherical(own) => {
+                &own.legs
+            }
+            Mechanism::Orthoglide { .. } | Mechanism::Formulas(_) => &[],
+        }
+    }
+}
+
 /// Legs of a platform that may turn.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -2,7 +2,7 @@
 
 use crate::cell::Cell;
 use crate::certificate::{Evidence, Node, Step, Tree, MOST_WORK};
-use crate::claim::{Bound, Leg, MachineClaim, Mechanism, Quantity, Turning, Workspace};
+use crate::claim::{Bound, MachineClaim, Mechanism, Quantity, Workspace};
 use crate::compile::{Builder, MOST_DERIVATIVES, MOST_LEGS};
 use crate::control::Control;
 use crate::cube::Cube;
@@ -128,14 +128,7 @@ impl Problem {
             (None, workspace) => corners(workspace)?,
         };
         let mut builder = Builder::default();
-        let legs: &[Leg] = match (&cube, &claim.mechanism) {
-            (Some(cube), _) => &cube.legs,
-            (_, Mechanism::Translational(legs)) => legs,
-            (_, Mechanism::Planar(Turning { legs, .. }))
-            | (_, Mechanism::Spatial(Turning { legs, .. }))
-            | (_, Mechanism::Spherical(Turning { legs, .. })) => legs,
-            (_, Mechanism::Formulas(_) | Mechanism::Orthoglide { .. }) => &[],
-        };
+        let legs = cube.as_ref().map_or(claim.mechanism.legs(), |cube| &cube.legs);
         builder.unit(legs)?;
         let (motion, chart) = builder.motion(claim)?;
         let (m, legs) = match &claim.mechanism {

@@ -12,7 +12,7 @@ use super::size::gap;
 use super::{effort, input, interrupt, print, Failure, Format, Status};
 use crate::design::Design;
 use crate::exact::decimal::exact;
-use crate::questions::tolerance::{legs_of, Kind, Scheme};
+use crate::questions::tolerance::{Kind, Scheme};
 use crate::report::counterexample;
 use crate::search::solver::{proof, refutation};
 use crate::search::Budget;
@@ -74,14 +74,13 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let budget = effort.budget(started)?;
     effort.start_threads()?;
     let nominal = Scheme::common(&kinds).claim(claim, &BigRational::from_integer(0.into()));
-    let nominal = nominal.ok_or_else(Failure::too_large)?;
     let nodes = match nodes_or_status(&nominal, arguments, budget)? {
         Ok(nodes) => nodes,
         Err(status) => return Ok(status),
     };
     let enough = BOXES.0.max(BOXES.1.saturating_mul(nodes));
     let budget = effort.budget_or(enough as u64, started)?;
-    let legs = if arguments.by_leg { legs_of(&claim.mechanism) } else { 0 };
+    let legs = if arguments.by_leg { claim.mechanism.legs().len() } else { 0 };
     interrupt::grant();
     let question = Question { claim, width, each, budget, arguments, design: &design };
     let rows = question.rows(&kinds, legs)?;

@@ -1,10 +1,11 @@
 //! One cell of parameters: certified, refuted, or open.
 
 use crate::design::AtlasDesign;
+use crate::exact::arithmetic::number;
 use crate::exact::Exact;
 use crate::search::solver::refute::{failures, machine, opposite, point, short, turned, Toward};
 use crate::search::solver::sample::{Place, Quality, Sampler, Worst};
-use crate::search::solver::{number, tree};
+use crate::search::solver::tree;
 use crate::search::{Budget, Control, Stop};
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -229,7 +230,7 @@ impl Named<'_> {
             Workspace::Cylinder { center, radius, .. } if k < 2 => {
                 let [radius, _] = ends(radius)?;
                 let off = short([&-&radius, &radius], *part, DIGITS, Toward::Middle)?;
-                number(&(center[k].rational()? + off.rational()?))
+                Some(number(&(center[k].rational()? + off.rational()?)))
             }
             _ if k >= min.len() => turned(self.over, self.cell, k - min.len(), *part, DIGITS),
             _ => {
@@ -271,7 +272,7 @@ fn ends(x: &Expression) -> Option<[BigRational; 2]> {
 /// A decimal near a part of a whole, nearer to zero.
 fn part_of(part: f64) -> Option<Expression> {
     let ten = BigRational::from_integer(10.into()).pow(DIGITS);
-    number(&(BigRational::from_f64((part * 10f64.powi(DIGITS)).trunc())? / ten))
+    Some(number(&(BigRational::from_f64((part * 10f64.powi(DIGITS)).trunc())? / ten)))
 }
 
 fn over(operator: Operator, left: Expression, right: Expression) -> Expression {

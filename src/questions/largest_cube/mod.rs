@@ -11,12 +11,12 @@
 
 mod exclude;
 
-use crate::exact::arithmetic::at_most;
+use crate::exact::arithmetic::{at_most, number};
 use crate::questions::frontier::{
     approach, bracket, proof, About, Approach, Approached, NoAnswer, Succeeds,
 };
 use crate::questions::placement::{best_place, cube_about, is_endless, Centres, Cube, Placed};
-use crate::search::solver::{self, approximate, number};
+use crate::search::solver::{self, approximate};
 use crate::search::{Budget, Control};
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -109,10 +109,7 @@ pub fn largest_cube(
     let inside = control.part([0.3, 0.6], |control| {
         let budget = budget.shared(2);
         approach(&near(Succeeds::Below), budget, control, |side, budget, control| {
-            match number(side) {
-                Some(side) => certified(claim, &side, &place.centre, gap, budget, control),
-                None => Ok(None),
-            }
+            certified(claim, &number(side), &place.centre, gap, budget, control)
         })
     })?;
     let too_large = control.part([0.6, 1.0], |control| {
@@ -120,7 +117,7 @@ pub fn largest_cube(
             return Ok(Approached { found: None, out_of_time: false });
         }
         approach(&near(Succeeds::Above), budget, control, |side, budget, control| {
-            let Some(side) = number(side) else { return Ok(None) };
+            let side = number(side);
             let excluded = exclude(claim, &side, budget, control)?;
             Ok(excluded.map(|certificate| TooLarge { side, certificate }))
         })
@@ -129,8 +126,10 @@ pub fn largest_cube(
     let inside = inside.found.map(|(_, inside)| inside);
     let too_large = too_large.found.map(|(_, too_large)| too_large);
     let fails = match (&inside, &too_large) {
-        (Some(Inside { centre, .. }), Some(TooLarge { side, .. })) => cube_about(centre, side)
-            .and_then(|workspace| solver::refutation(&MachineClaim { workspace, ..claim.clone() })),
+        (Some(Inside { centre, .. }), Some(TooLarge { side, .. })) => {
+            let workspace = cube_about(centre, side);
+            solver::refutation(&MachineClaim { workspace, ..claim.clone() })
+        }
         _ => None,
     };
     Ok(Bracket { inside, too_large, endless, fails, out_of_time, ..Bracket::default() })
@@ -150,7 +149,7 @@ fn about_one_centre(
         return Ok(Bracket::default());
     }
     let cube = |side: &BigRational| {
-        let workspace = cube_about(&centre, &number(side)?)?;
+        let workspace = cube_about(&centre, &number(side));
         Some(MachineClaim { workspace, ..claim.clone() })
     };
     let about = About {
@@ -162,13 +161,14 @@ fn about_one_centre(
         gap,
     };
     let found = control.part([0.3, 1.0], |control| bracket(&about, cube, budget, control))?;
-    let inside = found.certified.and_then(|(side, certificate)| {
-        Some(Inside { side: number(&side)?, centre: centre.clone(), certificate })
+    let inside = found.certified.map(|(side, certificate)| Inside {
+        side: number(&side),
+        centre: centre.clone(),
+        certificate,
     });
     let fails = found.refuted.as_ref().map(|(_, certificate)| certificate.clone());
-    let refuted_here = found
-        .refuted
-        .and_then(|(side, certificate)| Some(TooLarge { side: number(&side)?, certificate }));
+    let refuted_here =
+        found.refuted.map(|(side, certificate)| TooLarge { side: number(&side), certificate });
     let (centre, out_of_time) = (Some(centre), found.out_of_time);
     Ok(Bracket { inside, refuted_here, centre, fails, out_of_time, ..Bracket::default() })
 }
@@ -217,9 +217,7 @@ fn certified(
     if !contains(claim, &centre) {
         return Ok(None);
     }
-    let Some(workspace) = cube_about(&centre, side) else {
-        return Err(NoAnswer::Claim("its numbers exceed what can be reported".to_owned()));
-    };
+    let workspace = cube_about(&centre, side);
     let certificate = proof(&MachineClaim { workspace, ..claim.clone() }, budget, control)?;
     Ok(certificate.map(|certificate| Inside { side: side.clone(), centre, certificate }))
 }
@@ -244,7 +242,10 @@ fn contains(claim: &MachineClaim, point: &[BigRational; 3]) -> bool {
         return false;
     };
     let mut edges = min.iter().zip(max).zip(point);
-    edges.all(|((min, max), x)| number(x).is_some_and(|x| at_most(min, &x) && at_most(&x, max)))
+    edges.all(|((min, max), x)| {
+        let x = number(x);
+        at_most(min, &x) && at_most(&x, max)
+    })
 }
 
 /// A decimal within a hundredth of `width` of `x`.

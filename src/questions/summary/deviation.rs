@@ -2,9 +2,10 @@
 //! where the other is of one size with what is so.
 
 use super::End;
+use crate::exact::arithmetic::number;
 use crate::search::solver::enclose::{beyond, reached, seen, NotEnclosed};
 use crate::search::solver::extremes::Extreme;
-use crate::search::solver::{number, proof, value};
+use crate::search::solver::{proof, value};
 use crate::search::{Budget, Control, Steps, Stop};
 use num_rational::BigRational;
 use num_traits::Signed;
@@ -69,7 +70,7 @@ pub fn deviation(
 /// The requirement with both bounds.
 fn bounded(own: &Requirement, [off, turned]: [&BigRational; 2]) -> Option<Requirement> {
     let mut own = own.clone();
-    own.bound = Bound::Max(number(off)?);
-    own.given.insert("max_angle".to_owned(), vec![number(turned)?]);
+    own.bound = Bound::Max(number(off));
+    own.given.insert("max_angle".to_owned(), vec![number(turned)]);
     Some(own)
 }

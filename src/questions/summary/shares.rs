@@ -3,14 +3,14 @@
 use super::deviation::{deviation, is_one_of_two};
 use super::{End, Found};
 use crate::exact::Exact;
-use crate::questions::tolerance::{around, parameters};
+use crate::questions::tolerance::{around, legs_mut, parameters};
 use crate::report::parameter;
 use crate::search::solver::enclose::{enclose, NotEnclosed};
 use crate::search::solver::extremes::Extreme;
 use crate::search::{at_once, Budget, Control};
 use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
-use orthocert_kernel::claim::{Leg, MachineClaim, Mechanism, Quantity, Requirement, Turning};
+use orthocert_kernel::claim::{Leg, MachineClaim, Mechanism, Quantity, Requirement};
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
 use serde::Serialize;
@@ -50,21 +50,15 @@ pub struct Shares {
 
 /// The numbers of a mechanism.
 fn quantities(mechanism: &mut Mechanism) -> Vec<&mut Quantity> {
-    match mechanism {
-        Mechanism::Translational(legs)
-        | Mechanism::Planar(Turning { legs, .. })
-        | Mechanism::Spatial(Turning { legs, .. })
-        | Mechanism::Spherical(Turning { legs, .. }) => {
-            legs.iter_mut().flat_map(parameters).map(|(_, quantity)| quantity).collect()
-        }
-        Mechanism::Orthoglide { .. } => Vec::new(),
-        Mechanism::Formulas(formulas) => formulas.parameters.iter_mut().map(|(_, q)| q).collect(),
+    if let Mechanism::Formulas(formulas) = mechanism {
+        return formulas.parameters.iter_mut().map(|(_, quantity)| quantity).collect();
     }
+    legs_mut(mechanism).iter_mut().flat_map(parameters).map(|(_, quantity)| quantity).collect()
 }
 
-/// The same claim with the `kept`-th toleranced number as it is and all others in the middle of what they
-/// may be; `None` where a number becomes too large.
-fn alone(claim: &MachineClaim, kept: Option<usize>) -> Option<MachineClaim> {
+/// The same claim with the `kept`-th toleranced number as it is and all others in the middle of what
+/// they may be.
+fn alone(claim: &MachineClaim, kept: Option<usize>) -> MachineClaim {
     let mut claim = claim.clone();
     if let Mechanism::Translational(legs) = &mut claim.mechanism {
         // These have no part in where the platform is.
@@ -78,11 +72,11 @@ fn alone(claim: &MachineClaim, kept: Option<usize>) -> Option<MachineClaim> {
     let all = quantities(&mut claim.mechanism).into_iter().filter(toleranced);
     for (at, quantity) in all.enumerate() {
         if Some(at) != kept {
-            *quantity = around(quantity, &BigRational::zero())?;
+            *quantity = around(quantity, &BigRational::zero());
         }
     }
     claim.bodies.clear();
-    Some(claim)
+    claim
 }
 
 /// The accuracy that is required; about a point, no position is off.
@@ -126,8 +120,8 @@ pub fn shares(
     let deviations: Vec<Option<usize>> = deviations.collect();
     let bound = |kept: Option<usize>, budget: Budget, control: &mut Control<'_>| {
         let requirement = if kept.is_some() { exact_joints.clone() } else { own.clone() };
-        let one = alone(claim, kept).zip(Extreme::on(requirement, None));
-        let Some((mut one, extreme)) = one else { return Ok(None) };
+        let Some(extreme) = Extreme::on(requirement, None) else { return Ok(None) };
+        let mut one = alone(claim, kept);
         one.require = vec![extreme.bounded().requirement.clone()];
         let name = match kept {
             None => (None, "joint_error".to_owned()),

@@ -468,5 +468,5 @@ pub fn counterexample(
     let machine = problem.iter().flat_map(|problem| {
         problem.tolerances().zip(&witness.machine).map(|((place, ..), x)| (place, number(x)))
     });
-    (rows, mechanism::of_witness(mechanism::legs(&claim.mechanism).len(), machine))
+    (rows, mechanism::of_witness(claim.mechanism.legs().len(), machine))
 }

@@ -31,17 +31,6 @@ fn range(min: &Expression, max: &Expression) -> String {
     format!("[{}, {}]", number(min), number(max))
 }
 
-/// The legs of a mechanism; those of the paper follow from the claim, and users' are formulas.
-pub fn legs(mechanism: &Mechanism) -> &[Leg] {
-    match mechanism {
-        Mechanism::Translational(legs) => legs,
-        Mechanism::Planar(turning)
-        | Mechanism::Spatial(turning)
-        | Mechanism::Spherical(turning) => &turning.legs,
-        Mechanism::Orthoglide { .. } | Mechanism::Formulas(_) => &[],
-    }
-}
-
 /// The machine, on a line.
 pub fn machine(claim: &MachineClaim) -> String {
     let kind = match &claim.mechanism {
@@ -63,7 +52,7 @@ pub fn machine(claim: &MachineClaim) -> String {
             );
         }
     };
-    let legs = legs(&claim.mechanism);
+    let legs = claim.mechanism.legs();
     let mut drives: Vec<(&str, usize)> = Vec::new();
     for leg in legs {
         let name = drive(leg);
@@ -287,7 +276,7 @@ pub fn parameters(claim: &MachineClaim) -> String {
             let rows = formulas.parameters.iter().map(|(name, q)| (name.clone(), vec![value(q)]));
             table(&["value".to_owned()], &rows.collect::<Vec<_>>())
         }
-        mechanism => of_legs(legs(mechanism)),
+        mechanism => of_legs(mechanism.legs()),
     }
 }
 
@@ -370,7 +359,7 @@ fn value(quantity: &Quantity) -> String {
 pub fn drives(claim: &MachineClaim) -> Vec<&'static str> {
     match &claim.mechanism {
         Mechanism::Orthoglide { .. } => vec!["slider"],
-        mechanism => legs(mechanism).iter().map(drive).collect(),
+        mechanism => mechanism.legs().iter().map(drive).collect(),
     }
 }
 

@@ -3,7 +3,6 @@
 
 use super::isomap::{map, Map, Mark, Plane, Scale, NODES};
 use super::legs::{Numbers, Point};
-use super::mechanism;
 use super::shape::{frame, shape};
 use super::svg::Picture;
 use crate::exact::decimal::significant;
@@ -159,7 +158,7 @@ pub fn of_postulate(claim: &PostulateClaim) -> Option<MachineClaim> {
     // The length for the side 1: lengths are proportional to sides.
     let written = written_out(&of_side(one.clone())).ok()?;
     let Some(Leg::Slider { length: Quantity::Exactly(length), .. }) =
-        mechanism::legs(&written.mechanism).first()
+        written.mechanism.legs().first()
     else {
         return None;
     };

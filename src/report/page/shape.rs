@@ -1,7 +1,6 @@
 //! The machine of a kernel claim as it is drawn: in the middle of its workspace and tolerances.
 
 use super::legs::{across, unit, Numbers, Outline, Point, Shape};
-use super::mechanism;
 use crate::search::solver::approximate;
 use orthocert_kernel::claim::{
     Body, Leg, MachineClaim, Mechanism, Orientation, Quantity, Sign, Workspace,
@@ -21,7 +20,7 @@ pub fn shape(claim: &MachineClaim) -> Option<Shape> {
         return None;
     }
     let written = written_out(claim).ok()?;
-    let legs = mechanism::legs(&written.mechanism).iter().map(numbers).collect::<Option<_>>()?;
+    let legs = written.mechanism.legs().iter().map(numbers).collect::<Option<_>>()?;
     let is_flat = matches!(claim.mechanism, Mechanism::Planar(_));
     let is_cube = matches!(claim.workspace, Workspace::Cube { .. });
     let is_round = matches!(claim.workspace, Workspace::Cylinder { .. });
@@ -84,7 +83,7 @@ fn least_of_cube(claim: &MachineClaim) -> Option<f64> {
     let Mechanism::Orthoglide { offset } = &claim.mechanism else { return None };
     let written = written_out(claim).ok()?;
     let Leg::Slider { anchor, length: Quantity::Exactly(length), .. } =
-        mechanism::legs(&written.mechanism).first()?
+        written.mechanism.legs().first()?
     else {
         return None;
     };
@@ -283,7 +282,9 @@ mod tests {
         let content = drawn(&shape);
         assert_eq!(content.matches("class=\"leg\"").count(), 3);
         assert!(!content.contains("class=\"solid\"") && content.contains("class=\"platform\""));
-        assert!(mechanism::workspace(&claim).starts_with("tilted by at most 20\u{b0}"));
+        assert!(
+            super::super::mechanism::workspace(&claim).starts_with("tilted by at most 20\u{b0}")
+        );
     }
 
     /// The paper's cube: `L = 310.58`, and the platform at the origin is where all legs are along the

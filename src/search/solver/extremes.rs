@@ -1,7 +1,7 @@
 //! Extremes: how small and how large each quantity of the kernel's table gets. Claims about one have its bound alone.
 
-use super::refute::number;
 use super::value::{defining, name_of, sought, Bounded};
+use crate::exact::arithmetic::number;
 use crate::exact::Exact;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
@@ -178,7 +178,7 @@ impl Extreme {
 
     /// "The quantity stays within `bound`", and nothing else but what defines the paper's cube.
     pub(super) fn claim(&self, claim: &MachineClaim, bound: &BigRational) -> Option<MachineClaim> {
-        Some(sought(claim, self.bounded.bounded_by(number(bound)?)?))
+        Some(sought(claim, self.bounded.bounded_by(number(bound))?))
     }
 
     /// The quantity's name in texts.

@@ -65,6 +65,7 @@ pub mod value;
 pub(crate) mod violation;
 mod weighted;
 
+use crate::exact::arithmetic::number;
 use crate::search::accepted::{check, Accepted};
 use crate::search::{Budget, Control, Stop};
 use evidence::Prover;
@@ -82,7 +83,7 @@ use search::{search, search_below, Branch, Ends, Open, Outcome};
 use std::sync::atomic::AtomicBool;
 use trees::{in_ranges, with_derivatives, Ways, FEW_APART, MOST_APART};
 
-pub use refute::{approximate, number};
+pub use refute::approximate;
 
 /// Finest step of the search for worst values, `2^-FINEST` of the workspace.
 pub const FINEST: i32 = 26;
@@ -225,7 +226,7 @@ fn tighter(claim: &MachineClaim) -> Option<MachineClaim> {
         for x in ends {
             let far = approximate(x).filter(|x| x.abs() > GREATEST_BOUND);
             let Some(far) = far else { continue };
-            *x = number(&BigRational::from_f64(GREATEST_BOUND.copysign(far))?)?;
+            *x = number(&BigRational::from_f64(GREATEST_BOUND.copysign(far))?);
             found = true;
         }
     }

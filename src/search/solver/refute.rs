@@ -2,6 +2,7 @@
 
 use super::sample::{At, Place, Quality, Sampler, Worst};
 use super::violation;
+use crate::exact::arithmetic::number;
 use nalgebra::DVector;
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -28,8 +29,6 @@ const SINGULAR_POINTS: usize = 8;
 const DIGITS: [i32; 5] = [3, 6, 9, 12, 15];
 /// Bits tried for the components of a direction.
 const DIRECTION_BITS: [i32; 5] = [4, 8, 14, 24, 40];
-/// Most decimal places of a number that is written as a decimal.
-const MOST_PLACES: u32 = 60;
 
 /// A witness of the obligation that fails most, if one fails.
 pub fn refutation(
@@ -279,7 +278,7 @@ pub(crate) fn short(
 ) -> Option<Expression> {
     let width = greatest - least;
     if !width.is_positive() {
-        return number(least);
+        return Some(number(least));
     }
     let value = least + &width * BigRational::from_f64(part.clamp(0.0, 1.0))?;
     let size =
@@ -294,7 +293,7 @@ pub(crate) fn short(
         Toward::Middle => [floor.clone(), floor.clone(), floor],
     };
     let within = |x: &BigRational| least <= x && x <= greatest;
-    candidates.into_iter().chain([value]).find(within).and_then(|x| number(&x))
+    candidates.into_iter().chain([value]).find(within).map(|x| number(&x))
 }
 
 /// A number as it is, or, of one that is not rational, rationals on both sides.
@@ -305,33 +304,6 @@ fn enclosed(x: &Expression) -> Option<(BigRational, BigRational)> {
     let x = x.enclose(NUMBER_BITS)?;
     let end = |x: BigInt| BigRational::new(x, BigInt::from(1) << NUMBER_BITS);
     Some((end(x.lo), end(x.hi)))
-}
-
-/// A rational as an expression: a decimal, if it is one of few places, else a fraction.
-pub fn number(x: &BigRational) -> Option<Expression> {
-    let ten = BigInt::from(10);
-    let decimal = (0..=MOST_PLACES).find_map(|places| {
-        let scaled = x * BigRational::from_integer(ten.pow(places));
-        scaled.is_integer().then(|| (scaled.to_integer(), places))
-    });
-    let literal = |digits: BigInt, places| Expression::Literal { digits, places };
-    let positive = match decimal {
-        Some((digits, places)) => literal(digits.abs(), places),
-        None => {
-            let (p, q) = (literal(x.numer().abs(), 0), literal(x.denom().clone(), 0));
-            let over = orthocert_kernel::number::Operator::Div;
-            return Some(Expression::Binary(over, signed(x, p).into(), q.into()));
-        }
-    };
-    Some(signed(x, positive))
-}
-
-fn signed(x: &BigRational, positive: Expression) -> Expression {
-    if x.is_negative() {
-        Expression::Neg(positive.into())
-    } else {
-        positive
-    }
 }
 
 /// A double near a number of a claim.

@@ -1,8 +1,9 @@
 //! Two points with the same joint coordinates: by Newton's method from point to point of a grid.
 
-use super::refute::{number, point};
+use super::refute::point;
 use super::rows::{above, rounded};
 use super::sample::{At, Place, Sampler};
+use crate::exact::arithmetic::number;
 use nalgebra::{DMatrix, DVector};
 use num_rational::BigRational;
 use num_traits::FromPrimitive;
@@ -140,7 +141,7 @@ fn failure(
             let places = (2.0 - width.log10()).ceil() as i32;
             let grid = BigRational::from_integer(10.into()).pow(places);
             let x = BigRational::from_f64(x * sampler.unit_of(k))?;
-            number(&((x * &grid).round() / grid))
+            Some(number(&((x * &grid).round() / grid)))
         };
         point.map(short).collect()
     };

@@ -1,10 +1,10 @@
 //! The angles that a joint takes: a certified sector in which all of them are, up to whole turns.
 
 use super::enclose::{narrowest, of_one_width, rounded, Enclosed, NotEnclosed};
-use super::refute::number;
 use super::sample::{Place, Sampler, Worst};
 use super::value::{alone, middle as range_middle, of_sought, turns, Bounded};
 use super::{proof, refutation};
+use crate::exact::arithmetic::number;
 use crate::search::{Budget, Control, Steps, Stop};
 use num_rational::BigRational;
 use num_traits::FromPrimitive;
@@ -96,7 +96,7 @@ pub fn enclose(
 
 /// "The angle is within these degrees", and nothing else.
 fn within(claim: &MachineClaim, leg: usize, ends: &[BigRational; 2]) -> Option<MachineClaim> {
-    let bound = Bound::Within([number(&ends[0])?, number(&ends[1])?]);
+    let bound = Bound::Within([number(&ends[0]), number(&ends[1])]);
     let (quantity, given) = ("joint_range".to_owned(), BTreeMap::new());
     Some(alone(claim, vec![Requirement { quantity, leg: Some(leg + 1), given, bound }]))
 }
@@ -142,7 +142,7 @@ fn seen(claim: &MachineClaim, leg: usize) -> Result<[f64; 2], NotEnclosed> {
         if before.0 - lo <= 1e-9 * (hi - lo) && hi - before.1 <= 1e-9 * (hi - lo) {
             break;
         }
-        let ends = [lo, hi].map(|x| BigRational::from_f64(x).and_then(|x| number(&x)));
+        let ends = [lo, hi].map(|x| BigRational::from_f64(x).map(|x| number(&x)));
         let [Some(min), Some(max)] = ends else { return Err(NotEnclosed::Undecided) };
         asked.require[0].bound = Bound::Within([min, max]);
     }
@@ -173,7 +173,7 @@ mod tests {
         about(&claim, 0.0);
         for own in &mut claim.require {
             if let Bound::Within(ends) = &mut own.bound {
-                *ends = [185, 250].map(|x| number(&BigRational::from_integer(x.into())).unwrap());
+                *ends = [185, 250].map(|x| number(&BigRational::from_integer(x.into())));
             }
         }
         about(&claim, 360.0);

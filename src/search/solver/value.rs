@@ -1,7 +1,8 @@
 //! Quantities at a place, in the claim's own unit; what bounds on them are called.
 
-use super::refute::{approximate, number};
+use super::refute::approximate;
 use super::sample::{At, Place, Quality, Sampler};
+use crate::exact::arithmetic::number;
 use num_rational::BigRational;
 use num_traits::FromPrimitive;
 use orthocert_kernel::claim::{
@@ -249,7 +250,7 @@ impl Bounded {
 
     /// The same, on this leg alone.
     fn with(&self, x: f64) -> Option<Requirement> {
-        let requirement = self.bounded_by(number(&BigRational::from_f64(x)?)?)?;
+        let requirement = self.bounded_by(number(&BigRational::from_f64(x)?))?;
         Some(Requirement { leg: self.leg.map(|leg| leg + 1), ..requirement })
     }
 

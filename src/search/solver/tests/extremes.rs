@@ -213,7 +213,7 @@ fn wide_directions_are_shown_in_parts() {
         assert!(text.contains(whole), "{design}");
         let claim = Design::parse(&text.replace(whole, part), design).expect("a design").claim;
         let t = BigRational::new(t.into(), of.into());
-        let claim = Scheme::common(&[Kind::Direction]).claim(&claim, &t).expect("numbers");
+        let claim = Scheme::common(&[Kind::Direction]).claim(&claim, &t);
         let cancel = AtomicBool::new(false);
         let mut control = Control { cancel: &cancel, progress: &mut |_| {} };
         let budget = Budget { max_boxes: 8_000, deadline: None };
@@ -344,7 +344,7 @@ fn a_tree_goes_on_from_few_boxes() {
     let mut control = Control { cancel: &cancel, progress: &mut |_| {} };
     for (t, is_hopeless) in [(1, false), (4, true)] {
         let t = BigRational::from_integer(t.into());
-        let claim = Scheme::common(&[Kind::LegLength]).claim(&claim, &t).expect("numbers");
+        let claim = Scheme::common(&[Kind::LegLength]).claim(&claim, &t);
         let problem = with_derivatives(Problem::new(&claim).expect("a claim"));
         let prover = Prover::new(&problem).expect("numbers");
         let budget = Budget { max_boxes: 4000, deadline: None };
