@@ -7,6 +7,7 @@
 //! a band, where the tolerances are too wide to be proved in few parts.
 
 use crate::exact::arithmetic::{apply, number};
+use crate::exact::decimal::shortest;
 use crate::exact::Exact;
 use crate::questions::frontier::{
     approach, frontier, unless_cancelled, Approach, Approached, Bracket, NoAnswer, Succeeds, Walk,
@@ -17,7 +18,7 @@ use crate::search::solver::enclose::of_one_width;
 use crate::search::solver::sample::Worst;
 use crate::search::{Budget, Control, Stop};
 use num_rational::BigRational;
-use num_traits::{Signed, ToPrimitive, Zero};
+use num_traits::{FromPrimitive as _, Signed, ToPrimitive, Zero};
 use orthocert_checker::certificate::{Certificate, Proof};
 use orthocert_kernel::claim::{Leg, MachineClaim, Mechanism, Quantity, Vector};
 use orthocert_kernel::number::{Expression, Operator};
@@ -40,6 +41,8 @@ const ROUNDS: usize = 4;
 /// Parts of the refuted tolerance that are tried first where there is a deadline, or the best that can be hoped for
 /// is not proved, less one.
 const FAR: (f64, f64) = (10.0, 1e6);
+/// To such a part the tolerance of a design is told in decimals.
+const ROUNDED: f64 = 1e-9;
 /// Where there is a deadline, the distance down to which each is a third of the one before: a greater step mostly
 /// costs half of the time that is left, for nothing.
 const BY_THIRDS: f64 = 0.1;
@@ -197,15 +200,38 @@ impl Scheme {
     /// weight of their nominal values: the middle of what the design admits.
     pub fn claim(&self, claim: &MachineClaim, t: &BigRational) -> MachineClaim {
         let mut widened = claim.clone();
-        let wanted = |leg: usize| self.leg.is_none_or(|own| own == leg);
-        let legs = legs_mut(&mut widened.mechanism).iter_mut().enumerate();
-        let legs = legs.filter(|(leg, _)| wanted(*leg));
-        for (kind, quantity) in legs.flat_map(|(_, leg)| parameters(leg)) {
-            if let Some((_, weight)) = self.weights.iter().find(|(own, _)| *own == kind) {
-                *quantity = around(quantity, &(weight * t));
-            }
+        for (weight, quantity) in self.widened(&mut widened.mechanism) {
+            *quantity = around(quantity, &(weight * t));
         }
         widened
+    }
+
+    /// The parameters that are widened, with their weights.
+    fn widened<'a>(
+        &'a self,
+        mechanism: &'a mut Mechanism,
+    ) -> impl Iterator<Item = (&'a BigRational, &'a mut Quantity)> {
+        let legs = legs_mut(mechanism).iter_mut().enumerate();
+        let legs = legs.filter(|(leg, _)| self.leg.is_none_or(|own| own == *leg));
+        legs.flat_map(|(_, leg)| parameters(leg)).filter_map(|(kind, quantity)| {
+            let (_, weight) = self.weights.iter().find(|(own, _)| *own == kind)?;
+            Some((weight, quantity))
+        })
+    }
+
+    /// The `t` of what the design itself admits, where it admits as much of all, about: most likely it holds.
+    fn own(&self, claim: &MachineClaim) -> Option<BigRational> {
+        let mut mechanism = claim.mechanism.clone();
+        let own = self.widened(&mut mechanism).map(|(weight, quantity)| match quantity {
+            Quantity::Exactly(_) => None,
+            Quantity::Between { min, max } => Some(
+                (solver::approximate(max)? - solver::approximate(min)?)
+                    / (2.0 * weight.to_f64()?),
+            ),
+        });
+        let least = own.collect::<Option<Vec<_>>>()?.into_iter().reduce(f64::min)?;
+        let end = |part: f64| BigRational::from_f64(least * part);
+        Some(shortest(&end(1.0 - ROUNDED)?, &end(1.0 + ROUNDED)?)).filter(Signed::is_positive)
     }
 
     /// The greatest number among the parameters that have the same unit as those named, which
@@ -308,7 +334,15 @@ pub fn widest(
         (Some(_), None) => (FAR.0, BY_THIRDS),
         (Some(_), Some(likely)) => ((to / likely - 1.0).max(near), BY_THIRDS),
     };
-    let known = known.ends.certified;
+    let own = budget.deadline.and_then(|_| scheme.own(claim));
+    let known = match (known.ends.certified, own) {
+        (None, Some(own)) => {
+            let own_claim = scheme.claim(claim, &own);
+            let found = solver::proof_about(&own_claim, point, budget.shared(5), control).ok();
+            unless_cancelled(control, found)?.map(|certificate| (own, certificate))
+        }
+        (known, _) => known,
+    };
     let to =
         Approach { first, far: FAR, by_thirds, ..Approach::from_afar(to, Succeeds::Below, near) };
     let to = Approach { known: known.as_ref().and_then(|(t, _)| to.distance(t)), ..to };
@@ -384,4 +418,28 @@ fn certified(
     let to = Approach { known: distance.or(to.known), ..*to };
     let found = control.part([0.5, 1.0], |control| prove(&to, budget, control))?;
     Ok(Approached { found: found.found.or(quick.found), ..found })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::Design;
+
+    #[test]
+    fn the_tolerance_of_a_design_is_known_where_all_have_it() {
+        let text = include_str!("../../tests/designs/orthoglide-as-built.toml");
+        let claim = Design::parse(text, "test.toml").unwrap().claim;
+        let own = |scheme: &Scheme| scheme.own(&claim).map(|t| t.to_string());
+        let common = |kinds: &[Kind]| own(&Scheme::common(kinds));
+        assert_eq!(common(&[Kind::LegLength]).as_deref(), Some("1/50"));
+        assert_eq!(common(&[Kind::LegLength, Kind::Anchor]).as_deref(), Some("1/100"));
+        assert_eq!(common(&[Kind::Direction]).as_deref(), Some("1/10000"));
+        let of_leg = Scheme { leg: Some(1), ..Scheme::common(&[Kind::LegLength]) };
+        assert_eq!(own(&of_leg).as_deref(), Some("1/50"));
+        let double = vec![(Kind::LegLength, BigRational::from_integer(2.into()))];
+        assert_eq!(own(&Scheme { weights: double, leg: None }).as_deref(), Some("1/100"));
+        let exact = text.replace("\"310.7 ± 0.02\"", "310.7");
+        let claim = Design::parse(&exact, "test.toml").unwrap().claim;
+        assert_eq!(Scheme::common(&[Kind::LegLength]).own(&claim), None);
+    }
 }
