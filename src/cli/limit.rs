@@ -167,7 +167,11 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     interrupt::grant();
     let mut bar = effort.bar();
     let own = bar.run("own value", 20, |control| {
-        DesignFamily { variable, budget, control }.decide(&design.claim, [0.0, 1.0])
+        DesignFamily { variable, budget, control }.decide(
+            &design.claim,
+            [0.0, 1.0],
+            budget.deadline,
+        )
     });
     let own = own.map_err(|error| explain(error, &design))?;
     if own.is_none() && interrupt::is_cancelled() {

@@ -8,6 +8,7 @@ use crate::search::{Budget, Control};
 use num_rational::BigRational;
 use orthocert_checker::certificate::{Certificate, Verdict};
 use orthocert_kernel::claim::MachineClaim;
+use std::time::Instant;
 
 /// A design file, one number of which is varied.
 pub struct DesignFamily<'a, 'c> {
@@ -34,8 +35,9 @@ impl Family for DesignFamily<'_, '_> {
         &mut self,
         claim: &MachineClaim,
         part: [f64; 2],
+        deadline: Option<Instant>,
     ) -> Result<Option<(Verdict, Box<Certificate>)>, NoAnswer> {
-        let budget = self.budget;
+        let budget = Budget { deadline, ..self.budget };
         let found = self.control.part(part, |control| solver::verify(claim, budget, control));
         let certificate = match found.map_err(|error| NoAnswer::Claim(error.to_string()))?.answer {
             solver::Answer::Decided { certificate, .. } => Some(certificate),

@@ -25,7 +25,6 @@ pub use search::limits;
 
 use crate::exact::decimal::shortest;
 use crate::questions::frontier::NoAnswer;
-use crate::search::is_over;
 use num_rational::BigRational;
 use num_traits::Signed;
 use orthocert_checker::certificate::Verdict;
@@ -49,7 +48,7 @@ pub trait Family {
     /// If the value is not admissible.
     fn claim(&self, value: &BigRational) -> Result<Self::Claim, String>;
 
-    /// A claim's verdict, if one is found: these shares of all the work.
+    /// A claim's verdict, if one is found before `deadline`: these shares of all the work.
     ///
     /// # Errors
     /// If it was cancelled.
@@ -57,6 +56,7 @@ pub trait Family {
         &mut self,
         claim: &Self::Claim,
         part: [f64; 2],
+        deadline: Option<Instant>,
     ) -> Result<Option<(Verdict, Self::Proof)>, NoAnswer>;
 }
 
@@ -173,9 +173,5 @@ impl Question {
             Direction::Down => &self.own - offset,
         };
         shortest(&(&middle - &quarter), &(&middle + &quarter))
-    }
-
-    fn is_over(&self) -> bool {
-        is_over(self.deadline)
     }
 }

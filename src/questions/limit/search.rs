@@ -3,10 +3,11 @@
 use super::{Decided, Direction, End, Family, Limit, Question, Side, STEPS};
 use crate::exact::decimal::shortest;
 use crate::questions::frontier::NoAnswer;
-use crate::search::Steps;
+use crate::search::{is_over, Budget, Steps};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 use orthocert_checker::certificate::Verdict;
+use std::time::Instant;
 
 /// A short decimal well between two values.
 pub(super) fn between(a: &BigRational, b: &BigRational) -> BigRational {
@@ -31,8 +32,8 @@ pub fn limits<F: Family>(
     family: &mut F,
 ) -> Result<Vec<Limit<F::Proof>>, NoAnswer> {
     let directions = question.directions.len();
-    let mut search =
-        Search { question, family, steps: Steps::default(), directions, cancelled: false };
+    let (steps, deadline) = (Steps::default(), question.deadline);
+    let mut search = Search { question, family, steps, directions, deadline, cancelled: false };
     let starts = match own {
         Some((verdict, proof)) => {
             let own = Decided { value: question.own.clone(), verdict, proof };
@@ -41,23 +42,26 @@ pub fn limits<F: Family>(
         }
         None => search.starts()?,
     };
-    let mut found = Vec::new();
+    let mut walks = Vec::new();
     if let [Some(one), Some(other)] = starts.iter().map(|s| s.near.as_ref()).collect::<Vec<_>>()[..]
     {
         if one.verdict != other.verdict {
-            let walk = Walk::about(one.clone(), other.clone(), &question.own);
+            walks.push(Walk::about(one.clone(), other.clone(), &question.own));
             search.directions += 1;
-            found.push(search.narrowed(walk)?.limit());
         }
     }
     // What is refuted beside an undecided value has its limit there.
-    let about = !found.is_empty();
-    for walk in starts {
-        if !about || walk.is_certified() {
-            let walk = search.outward(walk)?;
-            found.push(search.narrowed(walk)?.limit());
-        }
+    let about = !walks.is_empty();
+    walks.extend(starts.into_iter().filter(|walk| !about || walk.is_certified()));
+    // Each has its share of the time; what others leave is for those whose share was up.
+    let count = walks.len();
+    for (at, walk) in walks.iter_mut().enumerate() {
+        search.along(walk, count - at)?;
     }
+    for walk in walks.iter_mut().filter(|walk| walk.out_of_time) {
+        search.along(walk, 1)?;
+    }
+    let mut found: Vec<_> = walks.into_iter().map(Walk::limit).collect();
     found.sort_by_key(|limit| limit.side);
     Ok(found)
 }
@@ -174,6 +178,8 @@ struct Search<'a, F> {
     /// What is done, and the directions in which it is not.
     steps: Steps,
     directions: usize,
+    /// Of the direction that is looked in.
+    deadline: Option<Instant>,
     /// Whether it is to end, with what was found.
     cancelled: bool,
 }
@@ -183,7 +189,7 @@ impl<F: Family> Search<'_, F> {
     fn decide(&mut self, claim: &F::Claim, here: usize) -> Result<Found<F>, NoAnswer> {
         let others = self.directions.saturating_sub(1) * (STEPS as usize / 2 + self.halves(1.0));
         let part = self.steps.take(1, here + others);
-        match self.family.decide(claim, part) {
+        match self.family.decide(claim, part, self.deadline) {
             Err(NoAnswer::Cancelled) => {
                 self.cancelled = true;
                 Ok(None)
@@ -193,7 +199,7 @@ impl<F: Family> Search<'_, F> {
     }
 
     fn is_over(&self) -> bool {
-        self.cancelled || self.question.is_over()
+        self.cancelled || is_over(self.deadline)
     }
 
     /// How often a relative distance is to be halved.
@@ -214,10 +220,12 @@ impl<F: Family> Search<'_, F> {
         question.directions.iter().map(start).collect()
     }
 
-    /// Steps until the verdict changes, or as far as steps go.
-    fn outward(&mut self, mut walk: Walk<F::Proof>) -> Result<Walk<F::Proof>, NoAnswer> {
-        while walk.far.is_none() && self.stepped(&mut walk)? {}
-        Ok(walk)
+    /// Steps until the verdict changes, or as far as steps go, and narrows, in one of so many shares of the time left.
+    fn along(&mut self, walk: &mut Walk<F::Proof>, shares: usize) -> Result<(), NoAnswer> {
+        let whole = Budget { max_boxes: 0, deadline: self.question.deadline };
+        (self.deadline, walk.out_of_time) = (whole.shared(shares).deadline, false);
+        while walk.far.is_none() && self.stepped(walk)? {}
+        self.narrowed(walk)
     }
 
     /// Takes the next step; whether there may be another.
@@ -275,8 +283,8 @@ impl<F: Family> Search<'_, F> {
 
     /// Halves what is between two verdicts. Each half is at most 3/4 of what was halved, so that
     /// this ends.
-    fn narrowed(&mut self, mut walk: Walk<F::Proof>) -> Result<Walk<F::Proof>, NoAnswer> {
-        while let Some((value, part)) = self.next(&walk) {
+    fn narrowed(&mut self, walk: &mut Walk<F::Proof>) -> Result<(), NoAnswer> {
+        while let Some((value, part)) = self.next(walk) {
             if self.is_over() {
                 walk.out_of_time = true;
                 break;
@@ -295,7 +303,7 @@ impl<F: Family> Search<'_, F> {
             }
         }
         self.directions = self.directions.saturating_sub(1);
-        Ok(walk)
+        Ok(())
     }
 
     /// The value to try next, unless the two ends, or each of them and what is undecided, are near

@@ -3,6 +3,7 @@
 use super::search::between;
 use super::*;
 use orthocert_checker::certificate::Verdict::{Certified, Refuted};
+use std::time::Duration;
 
 /// Verdicts by value; `None` where it is undecided. Admissible are values between the ends.
 struct Known<V> {
@@ -32,6 +33,7 @@ impl<V: Fn(&BigRational) -> Option<Verdict>> Family for Known<V> {
         &mut self,
         x: &BigRational,
         [from, to]: [f64; 2],
+        _: Option<Instant>,
     ) -> Result<Option<(Verdict, BigRational)>, NoAnswer> {
         assert!(self.done <= from && from <= to && to <= 1.0, "{} {from} {to}", self.done);
         self.done = from;
@@ -65,7 +67,7 @@ fn found(
         most: usize::MAX,
         done: 0.0,
     };
-    let start = family.decide(&question.own, [0.0, 1.0]).unwrap();
+    let start = family.decide(&question.own, [0.0, 1.0], None).unwrap();
     let limits = limits(&question, start, &mut family).unwrap();
     for limit in &limits {
         for (end, verdict) in [(&limit.certified, Certified), (&limit.refuted, Refuted)] {
@@ -220,6 +222,38 @@ fn without_time_nothing_is_tried() {
     assert!(limits.iter().all(|limit| limit.out_of_time && question.is_open(limit)));
 }
 
+/// Neither direction takes the time of the other, and what one leaves is the other's.
+#[test]
+fn directions_share_the_time() {
+    struct Timed(Vec<(BigRational, Duration)>, Instant);
+    impl Family for Timed {
+        type Claim = BigRational;
+        type Proof = ();
+        fn claim(&self, value: &BigRational) -> Result<BigRational, String> {
+            Ok(value.clone())
+        }
+        fn decide(
+            &mut self,
+            x: &BigRational,
+            _: [f64; 2],
+            deadline: Option<Instant>,
+        ) -> Result<Option<(Verdict, ())>, NoAnswer> {
+            self.0.push((x.clone(), deadline.unwrap().duration_since(self.1)));
+            Ok(Some((Certified, ())))
+        }
+    }
+    let (begin, whole) = (Instant::now(), Duration::from_secs(1000));
+    let (own, size, gap) = (number(5, 1), number(5, 1), number(1, 1_000_000));
+    let (directions, deadline) = (BOTH.to_vec(), Some(begin + whole));
+    let question = Question { own: own.clone(), size, gap, directions, deadline };
+    let mut family = Timed(Vec::new(), begin);
+    limits(&question, Some((Certified, ())), &mut family).unwrap();
+    let (down, up): (Vec<_>, Vec<_>) = family.0.into_iter().partition(|(x, _)| *x < own);
+    let half = whole / 2 + Duration::from_secs(60);
+    assert!(down.len() > 1 && down.iter().all(|(_, share)| *share <= half));
+    assert!(up.len() > 1 && up.iter().all(|(_, share)| *share > half));
+}
+
 #[test]
 fn values_are_short_decimals_well_between() {
     for (a, b, text) in [
@@ -317,7 +351,7 @@ fn cancelled_it_has_what_was_found_before() {
     let of = |most| {
         let (ends, tried) = ((-100_000, 100_000), Vec::new());
         let mut family = Known { verdict, ends, tried, most, done: 0.0 };
-        let start = family.decide(&question.own, [0.0, 0.1]).unwrap();
+        let start = family.decide(&question.own, [0.0, 0.1], None).unwrap();
         let limit = limits(&question, start, &mut family).unwrap().remove(0);
         (limit, family.tried)
     };
