@@ -51,7 +51,7 @@ impl Question {
     fn ends(
         &self,
         (claim, relative): (&kernel::MachineClaim, &BigRational),
-        is_first: bool,
+        is_enclosed: bool,
         budget: Budget,
         control: &mut Control<'_>,
     ) -> Vec<Ended> {
@@ -62,7 +62,7 @@ impl Question {
                     Err(error) => return vec![Err(error)],
                 };
                 let (mut own, has_limit) = (Vec::new(), budget.deadline.is_some());
-                if is_first && has_limit {
+                if !is_enclosed && has_limit {
                     own.push(sought.as_required(budget.shared(3), control));
                 }
                 let found = sought.enclose(relative, budget, control);
@@ -165,7 +165,7 @@ pub(super) fn rows(
                 Some(error) => {
                     question.rows(claim, angular).iter().map(|_| Err(error.clone())).collect()
                 }
-                None => question.ends((claim, relative), is_first, budget, control),
+                None => question.ends((claim, relative), width(ends).is_some(), budget, control),
             };
             let ends = narrower(ends.clone(), now);
             let rows = match budget.is_over() && want_more(&ends, relative) {
@@ -189,7 +189,8 @@ pub(super) fn rows(
     Ok(rows)
 }
 
-/// Those whose time was up and which can have twice that of what is left: first those that are not enclosed, then the widest.
+/// Those whose time was up and which can have twice that of what is left, or as much if they are not enclosed: first
+/// these, then the widest.
 fn with_more_time(all: &[Asked], budget: Budget) -> Vec<usize> {
     let mut asked: Vec<usize> = (0..all.len()).filter(|&at| all[at].rows.is_none()).collect();
     asked.sort_by(|&a, &b| match (width(&all[a].ends), width(&all[b].ends)) {
@@ -198,7 +199,10 @@ fn with_more_time(all: &[Asked], budget: Budget) -> Vec<usize> {
     });
     loop {
         let share = budget.shared(turns(asked.len())).left().unwrap_or_default();
-        let is_enough = |at: &usize| !share.is_zero() && share >= 2 * all[*at].had;
+        let is_enough = |at: &usize| {
+            let Asked { ends, had, .. } = &all[*at];
+            !share.is_zero() && share >= if width(ends).is_some() { 2 * *had } else { *had }
+        };
         match asked.iter().filter(|at| is_enough(at)).count() {
             enough if enough == asked.len() => return asked,
             // Without some, or else the last, there is more for the others.
