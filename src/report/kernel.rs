@@ -17,7 +17,7 @@ use nalgebra::Vector3;
 use num_rational::BigRational;
 use num_traits::FromPrimitive;
 use orthocert_kernel::certificate::{Failure, Witness};
-use orthocert_kernel::claim::{Body, Bound, MachineClaim, Mechanism};
+use orthocert_kernel::claim::{Body, Bound, MachineClaim, Mechanism, Workspace};
 use orthocert_kernel::machine::Leg;
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
@@ -397,21 +397,37 @@ impl<'a> Facts<'a> {
         let open = &undecided.open;
         let [min, max] = &self.sampler.ends();
         let volume: f64 = min.iter().zip(max).map(|(min, max)| max - min).product();
-        let total: f64 = open.iter().map(share).fold(0.0, sum_above);
+        let total = self.of_workspace(open.iter().map(share).fold(0.0, sum_above));
         let all = regions(open);
         let region = |region: &Region| {
             let [min, max] = self.extent(&region.cell);
-            OpenRegion { boxes: region.boxes, share: region.share, min, max }
+            OpenRegion { boxes: region.boxes, share: self.of_workspace(region.share), min, max }
         };
         Remains {
             reason: reason(undecided.objection.as_ref(), undecided.stop, tried),
             boxes: open.len(),
-            volume: total * volume,
+            volume: total * volume / self.box_of_workspace(),
             share: total,
             region_count: all.len(),
             regions: all.iter().take(REGIONS).map(region).collect(),
             worst_box: self.worst_box(open),
             open: self.open(undecided, worst),
+        }
+    }
+
+    /// The box around the workspace, in parts of it: boxes of a cylinder are parts of that box.
+    fn box_of_workspace(&self) -> f64 {
+        match self.claim.workspace {
+            Workspace::Cylinder { .. } => std::f64::consts::FRAC_PI_4.recip().next_up(),
+            Workspace::Box { .. } | Workspace::Cube { .. } => 1.0,
+        }
+    }
+
+    /// The share of the workspace of a share of the box around it, or more.
+    fn of_workspace(&self, share: f64) -> f64 {
+        match self.box_of_workspace() {
+            1.0 => share,
+            part => (share * part).next_up().min(1.0),
         }
     }
 
@@ -470,7 +486,7 @@ impl<'a> Facts<'a> {
                 obligation: rule,
                 requirement,
                 boxes: count,
-                share: boxes().map(share).fold(0.0, sum_above),
+                share: self.of_workspace(boxes().map(share).fold(0.0, sum_above)),
                 reasons: vec![(reason.to_owned(), count)],
                 help: self.help(quality, undecided.stop, margin),
             })

@@ -12,7 +12,7 @@ pub struct Remains {
     pub reason: String,
     /// Boxes on which something is open.
     pub boxes: usize,
-    /// Their volume, of all coordinates.
+    /// Their volume, of all coordinates; at most the workspace's.
     pub volume: f64,
     /// Their share of the workspace, rounded up.
     pub share: f64,

@@ -260,6 +260,30 @@ fn what_is_open_is_told_once() {
     assert!(!text.stdout.contains("volume"), "{}", text.stdout);
 }
 
+/// Boxes of a cylinder are parts of the box around it, of which it is less.
+#[test]
+fn what_is_open_is_a_share_of_the_cylinder() {
+    let folder = Folder::new();
+    let design = r#"
+        [mechanism]
+        kind = "orthoglide"
+        leg_length = 310
+        base = 0
+        [workspace.cylinder]
+        center = [0, 0]
+        radius = 50
+        z = [0, 100]
+        [requirements]
+        transmission = { max = 1.351 }
+    "#;
+    folder.write("c.toml", design);
+    let run = folder.run(&["verify", "c.toml", "--max-boxes", "1", "--format", "json"]).exits(3);
+    let answer: Value = serde_json::from_str(&run.stdout).unwrap();
+    let (open, whole) = (&answer["undecided"], std::f64::consts::PI * 2500.0 * 100.0);
+    assert_eq!(open["share"], 1.0);
+    assert!((open["volume"].as_f64().unwrap() / whole - 1.0).abs() < 1e-9, "{open}");
+}
+
 /// Of a strut's speed the test is of a polynomial, of which the value at a place tells nothing.
 #[test]
 fn room_in_a_joint_speed_is_no_tie() {

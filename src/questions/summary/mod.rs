@@ -106,7 +106,8 @@ pub struct Value {
     /// The quantity somewhere goes as far as this, or farther; certified, too.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reached: Option<Exact>,
-    /// The distance of the two, relative to the quantity's size, rounded up.
+    /// The distance of the two, relative to the quantity's size, rounded up; none where what is certified is the
+    /// design's own bound, and nothing narrower.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub relative: Option<String>,
     /// Why there is none.

@@ -118,6 +118,14 @@ pub struct Row {
     reached: String,
 }
 
+/// What marks a bound that is the design's own.
+fn own_bound(value: &Value) -> &'static str {
+    match value.relative {
+        None if value.certified.is_some() => "*",
+        _ => "",
+    }
+}
+
 /// The rows: both ends of a quantity on one.
 fn rows(values: &[Value]) -> Vec<Row> {
     let mut rows = Vec::new();
@@ -140,8 +148,8 @@ fn rows(values: &[Value]) -> Vec<Row> {
             (None, _) => "not found".to_owned(),
         };
         let outer = |value: &Value| match (&value.certified, value.end) {
-            (Some(x), "least") => Ok(outward(x, DIGITS, Toward::Below)),
-            (Some(x), _) => Ok(outward(x, DIGITS, Toward::Above)),
+            (Some(x), "least") => Ok(outward(x, DIGITS, Toward::Below) + own_bound(value)),
+            (Some(x), _) => Ok(outward(x, DIGITS, Toward::Above) + own_bound(value)),
             (None, _) => Err(value.not_enclosed.clone().unwrap_or_default()),
         };
         rows.push(match (outer(first), second.map(|second| (outer(second), inner(second)))) {
@@ -216,6 +224,9 @@ fn table(out: &mut String, values: &[Value], length: Option<&str>) {
     if values.iter().any(|value| value.certified.is_some()) {
         let text = "What is certified holds everywhere; and some pose is certified to reach the last column.";
         wrap(out, text, 2);
+    }
+    if values.iter().any(|value| !own_bound(value).is_empty()) {
+        wrap(out, "* The design's own bound, and nothing narrower: see bounds.", 2);
     }
 }
 

@@ -324,7 +324,8 @@ fn maps_of_slices(slices: &[Slice]) -> String {
 
 /// What is said of ranges.
 const SIGNED: &str = "<p class=\"note\">Strokes, factors, speeds and the like never leave these ranges, at no point \
-    and for no machine of the claim: the exact checker has accepted a proof of each end when this page was made. \
+    and for no machine of the claim: the exact checker has accepted a proof of each end when this page was made. An end with a * is what the claim \
+    requires, and may be far from what the machine reaches. \
     <code>orthocert bounds -o</code> keeps such proofs.</p>";
 
 /// The controls of the view in space.
