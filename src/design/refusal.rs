@@ -2,13 +2,16 @@
 
 use super::document::{Table, Value};
 use super::error::{Defect, DesignError};
+use crate::search::solver::evidence::BITS;
+use num_bigint::BigInt;
 use orthocert_kernel::claim as kernel;
 use orthocert_kernel::input::ClaimError as Refused;
 use orthocert_kernel::problem::Problem;
 
-/// Demands a claim that the kernel takes.
+/// Demands a claim that the kernel takes, with numbers that it encloses in the precision of proofs.
 pub(super) fn compiled(root: &Table<'_>, claim: &kernel::MachineClaim) -> Result<(), DesignError> {
-    Problem::new(claim).map(drop).map_err(|error| refused(root, &error))
+    let enclosed = |problem: Problem| problem.parameters::<BigInt>(BITS, &[]).map(drop);
+    Problem::new(claim).and_then(enclosed).map_err(|error| refused(root, &error))
 }
 
 /// A claim that the kernel refuses: the error about the table that it names.

@@ -315,8 +315,9 @@ impl Problem {
         let mut machine = machine.iter();
         let mut enclose = |input: &Input| {
             let value = if input.has_two_ends() { machine.next() } else { None };
-            let x = input.enclose(bits, value);
-            x.and_then(|x| narrowed(&x)).ok_or_else(|| malformed(&input.place, "a number"))
+            let refused =
+                || malformed(&input.place, "a number that is neither too small nor too large");
+            input.enclose(bits, value).and_then(|x| narrowed(&x)).ok_or_else(refused)
         };
         let mut all: Vec<Interval<Z>> = Vec::with_capacity(self.inputs.len());
         for (at, input) in self.inputs.iter().enumerate() {

@@ -147,6 +147,8 @@ fn requirements_that_only_the_kernel_knows() {
             OutOfDomain, "the boolean false", "true, or nothing: the key is missing"),
         row!("one to one of half a turn", SPATIAL, [(15, "orientation = { angle = 90 }"), (17, "one_to_one = true")], 17,
             "requirements.one_to_one", Claim, "not well formed", "differ by less than half a turn"),
+        row!("accuracy of no size", LEGS, [(26, "accuracy = { joint_error = 0, max = \"1e-50\" }")], 26,
+            "requirements.accuracy", Claim, "not well formed", "neither too small nor too large"),
         row!("one to one by a number", LEGS, [(26, "one_to_one = 1")], 26, "requirements.one_to_one",
             WrongType, "1", "true, or nothing: the key is missing"),
         row!("accuracy without an error", LEGS, [(26, "accuracy = { max = 1 }")], 26,
