@@ -306,6 +306,7 @@ pub fn widest(
     };
     let refute =
         |walk: &Walk, control: &mut Control<'_>| refuted(walk, |t| scheme.claim(claim, t), control);
+    let begun_before = known.ends.refuted.is_some();
     let begun = match known.ends.refuted {
         None => control.part([0.0, 0.4], |control| refute(&walk, control))?,
         Some(end) => {
@@ -334,7 +335,10 @@ pub fn widest(
         (Some(_), None) => (FAR.0, BY_THIRDS),
         (Some(_), Some(likely)) => ((to / likely - 1.0).max(near), BY_THIRDS),
     };
-    let own = budget.deadline.and_then(|_| scheme.own(claim));
+    // Tried once, and not where it is refuted.
+    let is_open = |own: &BigRational| refuted.as_ref().is_none_or(|(t, _)| own < t);
+    let is_tried = budget.deadline.is_none() || begun_before;
+    let own = if is_tried { None } else { scheme.own(claim).filter(is_open) };
     let known = match (known.ends.certified, own) {
         (None, Some(own)) => {
             let own_claim = scheme.claim(claim, &own);

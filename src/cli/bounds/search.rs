@@ -46,12 +46,12 @@ impl Question {
         }
     }
 
-    /// The ends. With a limit of time the design's own bound is tried first, in a third of it; without one, where nothing
-    /// narrower is proved.
+    /// The ends. With a limit of time the design's own bound is tried first, where it is asked for, in one of so many
+    /// parts of it; without one, where nothing narrower is proved.
     fn ends(
         &self,
         (claim, relative): (&kernel::MachineClaim, &BigRational),
-        is_enclosed: bool,
+        required: Option<usize>,
         budget: Budget,
         control: &mut Control<'_>,
     ) -> Vec<Ended> {
@@ -62,8 +62,8 @@ impl Question {
                     Err(error) => return vec![Err(error)],
                 };
                 let (mut own, has_limit) = (Vec::new(), budget.deadline.is_some());
-                if !is_enclosed && has_limit {
-                    own.push(sought.as_required(budget.shared(3), control));
+                if let Some(parts) = required.filter(|_| has_limit) {
+                    own.push(sought.as_required(budget.shared(parts), control));
                 }
                 let found = sought.enclose(relative, budget, control);
                 if !has_limit && matches!(found, Err(NotEnclosed::Undecided)) {
@@ -165,7 +165,14 @@ pub(super) fn rows(
                 Some(error) => {
                     question.rows(claim, angular).iter().map(|_| Err(error.clone())).collect()
                 }
-                None => question.ends((claim, relative), width(ends).is_some(), budget, control),
+                None => {
+                    let required = match (is_first, width(ends)) {
+                        (true, _) => Some(3),
+                        (false, None) => Some(1),
+                        (false, Some(_)) => None,
+                    };
+                    question.ends((claim, relative), required, budget, control)
+                }
             };
             let ends = narrower(ends.clone(), now);
             let rows = match budget.is_over() && want_more(&ends, relative) {
@@ -189,7 +196,7 @@ pub(super) fn rows(
     Ok(rows)
 }
 
-/// Those whose time was up and which can have twice that of what is left, or as much if they are not enclosed: first
+/// Those whose time was up and which can have twice that of what is left, or half of it if they are not enclosed: first
 /// these, then the widest.
 fn with_more_time(all: &[Asked], budget: Budget) -> Vec<usize> {
     let mut asked: Vec<usize> = (0..all.len()).filter(|&at| all[at].rows.is_none()).collect();
@@ -201,7 +208,7 @@ fn with_more_time(all: &[Asked], budget: Budget) -> Vec<usize> {
         let share = budget.shared(turns(asked.len())).left().unwrap_or_default();
         let is_enough = |at: &usize| {
             let Asked { ends, had, .. } = &all[*at];
-            !share.is_zero() && share >= if width(ends).is_some() { 2 * *had } else { *had }
+            !share.is_zero() && share >= if width(ends).is_some() { 2 * *had } else { *had / 2 }
         };
         match asked.iter().filter(|at| is_enough(at)).count() {
             enough if enough == asked.len() => return asked,

@@ -58,8 +58,9 @@ pub fn limits<F: Family>(
     for (at, walk) in walks.iter_mut().enumerate() {
         search.along(walk, count - at)?;
     }
-    for walk in walks.iter_mut().filter(|walk| walk.out_of_time) {
-        search.along(walk, 1)?;
+    let short = walks.iter().filter(|walk| walk.out_of_time).count();
+    for (at, walk) in walks.iter_mut().filter(|walk| walk.out_of_time).enumerate() {
+        search.along(walk, short - at)?;
     }
     let mut found: Vec<_> = walks.into_iter().map(Walk::limit).collect();
     found.sort_by_key(|limit| limit.side);
@@ -211,19 +212,31 @@ impl<F: Family> Search<'_, F> {
     /// From an undecided own value: the first verdict in each direction.
     fn starts(&mut self) -> Result<Vec<Walk<F::Proof>>, NoAnswer> {
         let question = self.question;
-        let start = |direction: &Direction| {
+        let start = |(at, direction): (usize, &Direction)| {
+            self.begin(question.directions.len() - at);
             let mut walk = Walk::new(Some(*direction), None);
             walk.undecided = Some([question.own.clone(), question.own.clone()]);
             while walk.near.is_none() && self.stepped(&mut walk)? {}
             Ok(walk)
         };
-        question.directions.iter().map(start).collect()
+        question.directions.iter().enumerate().map(start).collect()
+    }
+
+    /// From now on there is one of so many shares of the time left.
+    fn begin(&mut self, shares: usize) {
+        let whole = Budget { max_boxes: 0, deadline: self.question.deadline };
+        self.deadline = whole.shared(shares).deadline;
+    }
+
+    /// Whether a value may be undecided for want of a greater share only: it is asked for again then.
+    fn wants_more(&self) -> bool {
+        self.is_over() && !is_over(self.question.deadline)
     }
 
     /// Steps until the verdict changes, or as far as steps go, and narrows, in one of so many shares of the time left.
     fn along(&mut self, walk: &mut Walk<F::Proof>, shares: usize) -> Result<(), NoAnswer> {
-        let whole = Budget { max_boxes: 0, deadline: self.question.deadline };
-        (self.deadline, walk.out_of_time) = (whole.shared(shares).deadline, false);
+        self.begin(shares);
+        walk.out_of_time = false;
         while walk.far.is_none() && self.stepped(walk)? {}
         self.narrowed(walk)
     }
@@ -244,6 +257,10 @@ impl<F: Family> Search<'_, F> {
                 // As likely now as later.
                 let outward = (STEPS - walk.step) as usize / 2 + 1;
                 let found = self.decide(&claim, outward + self.halves(1.0))?;
+                if found.is_none() && self.wants_more() {
+                    walk.out_of_time = true;
+                    return Ok(false);
+                }
                 if !self.cancelled {
                     walk.put(value, found);
                 }
@@ -298,6 +315,10 @@ impl<F: Family> Search<'_, F> {
                 Ok(claim) => self.decide(&claim, self.halves(distance.unwrap_or(1.0)))?,
                 Err(_) => None,
             };
+            if found.is_none() && self.wants_more() {
+                walk.out_of_time = true;
+                break;
+            }
             if !self.cancelled {
                 walk.put_between(value, part, found);
             }

@@ -225,7 +225,12 @@ fn without_time_nothing_is_tried() {
 /// Neither direction takes the time of the other, and what one leaves is the other's.
 #[test]
 fn directions_share_the_time() {
-    struct Timed(Vec<(BigRational, Duration)>, Instant);
+    struct Timed {
+        begin: Instant,
+        asked: Vec<(BigRational, Duration)>,
+        /// Whether the first value takes all of its share.
+        is_slow: bool,
+    }
     impl Family for Timed {
         type Claim = BigRational;
         type Proof = ();
@@ -238,20 +243,34 @@ fn directions_share_the_time() {
             _: [f64; 2],
             deadline: Option<Instant>,
         ) -> Result<Option<(Verdict, ())>, NoAnswer> {
-            self.0.push((x.clone(), deadline.unwrap().duration_since(self.1)));
+            let deadline = deadline.unwrap();
+            self.asked.push((x.clone(), deadline.duration_since(self.begin)));
+            if std::mem::take(&mut self.is_slow) {
+                std::thread::sleep(deadline.saturating_duration_since(Instant::now()));
+                return Ok(None);
+            }
             Ok(Some((Certified, ())))
         }
     }
-    let (begin, whole) = (Instant::now(), Duration::from_secs(1000));
-    let (own, size, gap) = (number(5, 1), number(5, 1), number(1, 1_000_000));
-    let (directions, deadline) = (BOTH.to_vec(), Some(begin + whole));
-    let question = Question { own: own.clone(), size, gap, directions, deadline };
-    let mut family = Timed(Vec::new(), begin);
-    limits(&question, Some((Certified, ())), &mut family).unwrap();
-    let (down, up): (Vec<_>, Vec<_>) = family.0.into_iter().partition(|(x, _)| *x < own);
+    let searched = |whole: Duration, is_slow: bool| {
+        let (begin, own) = (Instant::now(), number(5, 1));
+        let (size, gap) = (own.clone(), number(1, 1_000_000));
+        let (directions, deadline) = (BOTH.to_vec(), Some(begin + whole));
+        let question = Question { own: own.clone(), size, gap, directions, deadline };
+        let mut family = Timed { begin, asked: Vec::new(), is_slow };
+        let found = limits(&question, Some((Certified, ())), &mut family).unwrap();
+        let (down, up): (Vec<_>, Vec<_>) = family.asked.into_iter().partition(|(x, _)| *x < own);
+        (down, up, found)
+    };
+    let whole = Duration::from_secs(1000);
     let half = whole / 2 + Duration::from_secs(60);
+    let (down, up, _) = searched(whole, false);
     assert!(down.len() > 1 && down.iter().all(|(_, share)| *share <= half));
     assert!(up.len() > 1 && up.iter().all(|(_, share)| *share > half));
+    // What took all of its share is not undecided before it has had the rest, too.
+    let (down, up, found) = searched(Duration::from_secs(2), true);
+    assert!(down[0].0 == down[1].0 && !up.is_empty());
+    assert!(found.iter().all(|limit| limit.undecided.is_none()), "{found:?}");
 }
 
 #[test]

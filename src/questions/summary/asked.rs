@@ -186,6 +186,7 @@ impl Asked {
             end,
             certified: None,
             reached: None,
+            own_bound: false,
             relative: None,
             not_enclosed: None,
         }

@@ -62,7 +62,7 @@ pub fn deviation(
     let end = |certified: BigRational, (_, reached): (f64, Option<BigRational>)| {
         let relative = reached.as_ref().filter(|_| certified.is_positive());
         let relative = relative.map(|reached| (&certified - reached) / &certified);
-        End { certified, reached, relative }
+        End { certified, reached, relative, own_bound: false }
     };
     best.map(|[one, other]| [end(one, off), end(other, turned)])
 }

@@ -106,8 +106,10 @@ pub struct Value {
     /// The quantity somewhere goes as far as this, or farther; certified, too.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reached: Option<Exact>,
-    /// The distance of the two, relative to the quantity's size, rounded up; none where what is certified is the
-    /// design's own bound, and nothing narrower.
+    /// Whether what is certified is the design's own bound, and nothing narrower.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub own_bound: bool,
+    /// The distance of the two, relative to the quantity's size, rounded up.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub relative: Option<String>,
     /// Why there is none.
@@ -121,12 +123,13 @@ struct End {
     certified: BigRational,
     reached: Option<BigRational>,
     relative: Option<BigRational>,
+    own_bound: bool,
 }
 
 impl From<Enclosed> for End {
     fn from(found: Enclosed) -> Self {
         let reached = found.refuted.is_some().then_some(found.inner);
-        End { certified: found.outer, reached, relative: Some(found.width) }
+        End { certified: found.outer, reached, relative: Some(found.width), own_bound: false }
     }
 }
 
@@ -257,7 +260,7 @@ fn ends(
             let [least, most] = ends.ok_or(NotEnclosed::Undecided)?;
             let relative = Some((&most - &least) / &least);
             let (certified, reached) = if *greatest { (most, least) } else { (least, most) };
-            Ok(vec![End { certified, reached: Some(reached), relative }])
+            Ok(vec![End { certified, reached: Some(reached), relative, own_bound: false }])
         }
         Asked::Extreme(extreme) => {
             Ok(vec![End::from(enclose(claim, extreme, gap, budget, control)?)])
@@ -266,7 +269,12 @@ fn ends(
             let found = sector::enclose(claim, *leg, gap, budget, control)?;
             let end = |(certified, reached): (_, Option<(_, _)>)| {
                 let relative = Some(found.width.clone());
-                End { certified, reached: reached.map(|(angle, _)| angle), relative }
+                End {
+                    certified,
+                    reached: reached.map(|(angle, _)| angle),
+                    relative,
+                    own_bound: false,
+                }
             };
             Ok(found.certified.into_iter().zip(found.reached).map(end).collect())
         }
@@ -284,15 +292,15 @@ fn tightened(
     let Some(bound) = required(claim, extreme) else { return ends };
     match &mut ends {
         Ok(ends) => {
-            for End { certified, .. } in ends {
+            for End { certified, own_bound, .. } in ends {
                 if extreme.is_greatest() == (bound < *certified) {
-                    certified.clone_from(&bound);
+                    (*certified, *own_bound) = (bound.clone(), true);
                 }
             }
         }
         Err(NotEnclosed::Undecided | NotEnclosed::Time) => {
             let reached = reached(claim, extreme, gap).ok().and_then(|(_, reached)| reached);
-            ends = Ok(vec![End { certified: bound, reached, relative: None }]);
+            ends = Ok(vec![End { certified: bound, reached, relative: None, own_bound: true }]);
         }
         Err(_) => {}
     }
@@ -326,6 +334,7 @@ impl Found {
                 Ok(found) => Value {
                     certified: found.get(at).map(|end| Exact::Rational(end.certified.clone())),
                     reached: found.get(at).and_then(|end| end.reached.clone()).map(Exact::Rational),
+                    own_bound: found.get(at).is_some_and(|end| end.own_bound),
                     relative: found
                         .get(at)
                         .and_then(|end| Some(rounded(end.relative.as_ref()?, 2, Toward::Above))),

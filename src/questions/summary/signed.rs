@@ -41,7 +41,9 @@ pub fn signed(claim: &MachineClaim, length: Option<&str>) -> Vec<(String, String
             _ => None,
         };
         let ends = match of_bound {
-            Some(certified) => Ok(vec![End { certified, reached: None, relative: None }]),
+            Some(certified) => {
+                Ok(vec![End { certified, reached: None, relative: None, own_bound: true }])
+            }
             None => {
                 let ends = ends(claim, &asked, true, &question.gap, budget, &mut control);
                 tightened(claim, &asked, ends, &question.gap)

@@ -120,9 +120,10 @@ pub struct Row {
 
 /// What marks a bound that is the design's own.
 fn own_bound(value: &Value) -> &'static str {
-    match value.relative {
-        None if value.certified.is_some() => "*",
-        _ => "",
+    if value.own_bound {
+        "*"
+    } else {
+        ""
     }
 }
 
