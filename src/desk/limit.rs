@@ -34,7 +34,7 @@ pub fn limit(text: &str, file: &str, key: &str) -> Result<Value, String> {
     };
     let found = run(|control| {
         let mut family = DesignFamily { variable, budget, control };
-        let own = family.decide(&claim, [0.0, 1.0])?;
+        let own = family.decide(&claim, [0.0, 1.0], None)?;
         limits(&question, own, &mut family)
     });
     let found = found.map_err(|error| error.to_string())?;
