@@ -14,6 +14,7 @@ use crate::questions::limit::{
     limits, Decided, DesignFamily, Direction, Family, Limit, Place, Question,
 };
 use crate::report::{machine_of_witness, CertificateFile, Outcome};
+use crate::search::Budget;
 use num_rational::BigRational;
 use orthocert_checker::certificate::{Certificate, Proof, Verdict};
 use serde::Serialize;
@@ -139,7 +140,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let started = Instant::now();
     let effort = &arguments.effort;
     let gap = input::rational_within("--gap", &arguments.gap, ["1e-9", "0.5"])?;
-    let budget = effort.budget(started)?;
+    let Budget { max_boxes, deadline } = effort.budget(started)?;
     let bytes = Design::bytes(&arguments.design).map_err(Failure::input)?;
     let design = Design::of(&bytes, &arguments.design).map_err(Failure::input)?;
     input::tell_notes(&design, Some(&arguments.design), effort.quiet);
@@ -161,17 +162,14 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
             Some(Toward::Up) => vec![Direction::Up],
             Some(Toward::Down) => vec![Direction::Down],
         },
-        deadline: budget.deadline,
+        deadline,
     };
     let variable = &variable;
     interrupt::grant();
     let mut bar = effort.bar();
     let own = bar.run("own value", 20, |control| {
-        DesignFamily { variable, budget, control }.decide(
-            &design.claim,
-            [0.0, 1.0],
-            budget.deadline,
-        )
+        let mut family = DesignFamily { variable, max_boxes, control };
+        family.decide(&design.claim, [0.0, 1.0], deadline)
     });
     let own = own.map_err(|error| explain(error, &design))?;
     if own.is_none() && interrupt::is_cancelled() {
@@ -180,9 +178,9 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let verdict = own.as_ref().map(|(verdict, _)| *verdict);
     let nodes = own.as_ref().map_or(0, |(_, certificate)| nodes(&certificate.proof));
     let enough = BOXES.0.max(BOXES.1.saturating_mul(nodes));
-    let budget = effort.budget_or(enough as u64, started)?;
+    let Budget { max_boxes, .. } = effort.budget_or(enough as u64, started)?;
     let found = bar.run(&arguments.key, 1, |control| {
-        limits(&question, own, &mut DesignFamily { variable, budget, control })
+        limits(&question, own, &mut DesignFamily { variable, max_boxes, control })
     });
     drop(bar);
     let limits = found.map_err(|error| explain(error, &design))?;

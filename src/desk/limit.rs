@@ -8,7 +8,6 @@ use orthocert::exact::Exact;
 use orthocert::questions::limit::{
     limits, Decided, DesignFamily, Direction, Family, Limit, Place, Question, Side,
 };
-use orthocert::search::Budget;
 use orthocert_checker::certificate::Certificate;
 use serde_json::{json, Value};
 
@@ -23,7 +22,6 @@ const BITS: u32 = 192;
 pub fn limit(text: &str, file: &str, key: &str) -> Result<Value, String> {
     let claim = design(text, file)?.claim;
     let variable = &Variable::find(text, file, key).map_err(|error| error.to_string())?;
-    let budget = Budget { max_boxes: MOST_BOXES, deadline: None };
     let own = variable.own();
     let question = Question {
         own: own.as_rational().cloned().or_else(|| own.below(BITS)).ok_or(TOO_LONG)?,
@@ -33,7 +31,7 @@ pub fn limit(text: &str, file: &str, key: &str) -> Result<Value, String> {
         deadline: None,
     };
     let found = run(|control| {
-        let mut family = DesignFamily { variable, budget, control };
+        let mut family = DesignFamily { variable, max_boxes: MOST_BOXES, control };
         let own = family.decide(&claim, [0.0, 1.0], None)?;
         limits(&question, own, &mut family)
     });

@@ -70,6 +70,12 @@ pub fn at_most(a: &Expression, b: &Expression) -> bool {
     }
 }
 
+/// Whether `min <= x <= max`, certainly.
+pub fn is_between(x: &BigRational, [min, max]: [&Expression; 2]) -> bool {
+    let x = number(x);
+    at_most(min, &x) && at_most(&x, max)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

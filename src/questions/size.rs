@@ -10,7 +10,7 @@
 //! [`Family::excluded`] shows the latter for every placement at once of a cube with its edges along
 //! the axes: of turned cubes, which may fit a smaller machine, nothing is claimed.
 
-use crate::exact::arithmetic::{apply, at_most, number};
+use crate::exact::arithmetic::{apply, is_between, number};
 use crate::questions::frontier::{
     approach, bracket, decimal, About, Approach, Approached, Bracket, NoAnswer, Succeeds,
 };
@@ -146,10 +146,8 @@ impl Family {
             return None;
         }
         let [min, max] = bounding_box(&self.claim.workspace)?;
-        let within = |((min, max), x): ((&Expression, &Expression), &BigRational)| {
-            let x = number(x);
-            at_most(min, &x) && at_most(&x, max)
-        };
+        let within =
+            |((min, max), x): ((&Expression, &Expression), &BigRational)| is_between(x, [min, max]);
         min.iter().zip(&max).zip(&self.centre).all(within).then_some(Scope::Workspace)
     }
 

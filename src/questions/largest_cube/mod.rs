@@ -11,7 +11,7 @@
 
 mod exclude;
 
-use crate::exact::arithmetic::{at_most, number};
+use crate::exact::arithmetic::{is_between, number};
 use crate::questions::frontier::{
     approach, bracket, proof, About, Approach, Approached, NoAnswer, Succeeds,
 };
@@ -242,10 +242,7 @@ fn contains(claim: &MachineClaim, point: &[BigRational; 3]) -> bool {
         return false;
     };
     let mut edges = min.iter().zip(max).zip(point);
-    edges.all(|((min, max), x)| {
-        let x = number(x);
-        at_most(min, &x) && at_most(&x, max)
-    })
+    edges.all(|((min, max), x)| is_between(x, [min, max]))
 }
 
 /// A decimal within a hundredth of `width` of `x`.

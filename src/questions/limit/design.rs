@@ -15,7 +15,7 @@ pub struct DesignFamily<'a, 'c> {
     /// The number.
     pub variable: &'a Variable<'a>,
     /// For each value.
-    pub budget: Budget,
+    pub max_boxes: usize,
     /// Their progress, and how they are cancelled.
     pub control: &'a mut Control<'c>,
 }
@@ -37,7 +37,7 @@ impl Family for DesignFamily<'_, '_> {
         part: [f64; 2],
         deadline: Option<Instant>,
     ) -> Result<Option<(Verdict, Box<Certificate>)>, NoAnswer> {
-        let budget = Budget { deadline, ..self.budget };
+        let budget = Budget { max_boxes: self.max_boxes, deadline };
         let found = self.control.part(part, |control| solver::verify(claim, budget, control));
         let certificate = match found.map_err(|error| NoAnswer::Claim(error.to_string()))?.answer {
             solver::Answer::Decided { certificate, .. } => Some(certificate),

@@ -48,8 +48,7 @@ pub fn deviation(
         let factor = BigRational::new(part.into(), 100.into());
         let bounds = worst.each_ref().map(|(seen, _)| beyond(*seen, &factor));
         let [Some(off), Some(turned)] = &bounds else { break };
-        let Some(both) = bounded(own, [off, turned]) else { break };
-        let both = value::alone(&claim, vec![both]);
+        let both = value::alone(&claim, vec![bounded(own, [off, turned])]);
         match steps.next(control, OF_WORST.len() - number, |control| proof(&both, budget, control))
         {
             Ok(_) => best = Ok([off.clone(), turned.clone()]),
@@ -68,9 +67,9 @@ pub fn deviation(
 }
 
 /// The requirement with both bounds.
-fn bounded(own: &Requirement, [off, turned]: [&BigRational; 2]) -> Option<Requirement> {
+fn bounded(own: &Requirement, [off, turned]: [&BigRational; 2]) -> Requirement {
     let mut own = own.clone();
     own.bound = Bound::Max(number(off));
     own.given.insert("max_angle".to_owned(), vec![number(turned)]);
-    Some(own)
+    own
 }

@@ -226,7 +226,7 @@ fn table(out: &mut String, values: &[Value], length: Option<&str>) {
         let text = "What is certified holds everywhere; and some pose is certified to reach the last column.";
         wrap(out, text, 2);
     }
-    if values.iter().any(|value| !own_bound(value).is_empty()) {
+    if values.iter().any(|value| value.own_bound) {
         wrap(out, "* The design's own bound, and nothing narrower: see bounds.", 2);
     }
 }
