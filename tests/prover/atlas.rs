@@ -17,6 +17,9 @@ use orthocert_kernel::number::Expression;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
+/// Maps in which no cell of those tried here is refuted.
+const REFUTED_NOWHERE: [&str; 1] = ["delta-clearance"];
+
 fn atlas(name: &str, resolution: u32) -> AtlasDesign {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/atlases");
     let mut design = AtlasDesign::read(&folder.join(format!("{name}.toml"))).unwrap();
@@ -121,9 +124,10 @@ fn single_designs_are_what_their_cell_says() {
         ("spherical", 2),
         ("hexapod", 2),
         ("delta-clearance", 2),
+        ("orthoglide-accuracy", 3),
     ] {
         let design = AtlasDesign { boxes: 40, ..atlas(name, resolution) };
-        let mut certified = 0;
+        let [mut certified, mut refuted] = [0; 2];
         walk(&map(&design), 2, |_, part, said| {
             let expected = match said {
                 AtlasCell::Certified(_) => Verdict::Certified,
@@ -131,6 +135,7 @@ fn single_designs_are_what_their_cell_says() {
                 _ => return Ok(()),
             };
             certified += usize::from(expected == Verdict::Certified);
+            refuted += usize::from(expected == Verdict::Refuted);
             let ranges = ends(&design, part).unwrap();
             let third = |[min, max]: &[Exact; 2]| {
                 let width = max.clone().minus(min.clone()).unwrap();
@@ -142,6 +147,7 @@ fn single_designs_are_what_their_cell_says() {
         })
         .unwrap();
         assert!(certified > 0, "{name}");
+        assert!(refuted > 0 || REFUTED_NOWHERE.contains(&name), "{name}");
     }
 }
 

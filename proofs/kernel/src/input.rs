@@ -102,6 +102,14 @@ impl Input {
         matches!(self.value, Value::Quantity(Quantity::Between { .. }))
     }
 
+    /// How far its ends are apart.
+    pub fn width(&self) -> Option<Expression> {
+        match &self.value {
+            Value::Quantity(Quantity::Between { min, max }) => Some(max - min),
+            _ => None,
+        }
+    }
+
     /// Whether machines differ by it: so, or by a name of an atlas.
     pub fn differs(&self) -> bool {
         use Expression::Varying;

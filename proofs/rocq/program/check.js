@@ -551,7 +551,7 @@ for (const [name, angle, part, changed] of [
     if (answers.some((a) => a !== "REJECTED")) fail(`${name}, accuracy: ${answers}: ${from} ${to}`); else no_accuracy++;
   }
 }
-// In a cell of an atlas: the bound is a parameter, or a length is.
+// In a cell of an atlas: the bound is a parameter, or a length is. Of wide cells the exact checker shows more.
 {
   const { claim: { machine }, proof: { witness } } = JSON.parse(skew);
   const cell = (parameter, bound, length) => {
@@ -561,12 +561,13 @@ for (const [name, angle, part, changed] of [
       proof: { atlas: [{ refuted: witness }] }, provenance: { tool: "t", version: "1" } }) + "\n";
   };
   const b = (min, max) => ({ name: "b", min, max }), r = (max) => ({ name: "r", min: "310", max });
-  for (const [text, answer] of [
+  for (const [text, exactly, here = exactly] of [
     [cell(b("0.001", "0.002"), "b", "310"), "CERTIFIED"], [cell(b("0.0001", "0.0035"), "b", "310"), "CERTIFIED"], [cell(b("0.001", "0.01"), "b", "310"), "REJECTED"], [cell(b("0.01", "0.02"), "b", "310"), "REJECTED"],
-    [cell(r("310.0001"), "0.001", "r"), "CERTIFIED"], [cell(r("312"), "0.001", "r"), "REJECTED"], [cell(r("310.0001"), "0.01", "r"), "REJECTED"],
+    [cell(r("310.0001"), "0.001", "r"), "CERTIFIED"], [cell(r("312"), "0.01", "r"), "REJECTED"], [cell(r("310.0001"), "0.01", "r"), "REJECTED"],
+    [cell(r("312"), "0.001", "r"), "CERTIFIED", "REJECTED"],
   ]) {
     const answers = three_answers(text);
-    if (answers.some((a) => a !== answer)) fail(`accuracy in an atlas: ${answers}: ${text}`);
+    if (answers.some((a, i) => a !== (i === 0 ? exactly : here))) fail(`accuracy in an atlas: ${answers}: ${text}`);
   }
   read.push(cell(b("0.001", "0.002"), "b", "310"), cell(r("310.0001"), "0.001", "r"));
 }

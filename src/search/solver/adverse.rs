@@ -43,7 +43,9 @@ impl Sampler<'_> {
             });
             // Angles, to whole turns.
             let turned = |x: f64| if x.abs() > 3.0 { x - TAU * (x / TAU).round() } else { x };
-            Some(high?.iter().zip(low?).map(|(high, low)| turned(high - low)).collect())
+            // Of a name of an atlas, which is the same in the machine in the middle, nothing.
+            let part = self.tolerance_of(j);
+            Some(high?.iter().zip(low?).map(|(high, low)| turned(high - low) * part).collect())
         };
         let changes: Vec<Vec<f64>> = (0..self.free.len()).map(change).collect::<Option<_>>()?;
         let at = self.at_machine(quality, place);
@@ -55,7 +57,10 @@ impl Sampler<'_> {
         let beta: Vec<f64> = test.joints.iter().enumerate().map(beta).collect::<Option<_>>()?;
         let signs = violation::farthest(&at, test, &beta)?;
         let mut found = place.clone();
-        for (t, change) in found.t.iter_mut().zip(&changes) {
+        for (j, (t, change)) in found.t.iter_mut().zip(&changes).enumerate() {
+            if self.tolerance_of(j) == 0.0 {
+                continue;
+            }
             let along: f64 = change.iter().zip(&signs).map(|(x, sign)| x * sign).sum();
             // What the joint has less than the machine in the middle, it is off by.
             *t = if along > 0.0 { 0.0 } else { 1.0 };

@@ -12,7 +12,7 @@ use nalgebra::DMatrix;
 use num_bigint::BigInt;
 use orthocert_kernel::claim::{MachineClaim, Orientation, Quantity, Workspace};
 use orthocert_kernel::formula::{Formula, Op};
-use orthocert_kernel::input::{ClaimError, Value};
+use orthocert_kernel::input::{self, ClaimError, Value};
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::quantity::{Obligation, Test};
@@ -72,7 +72,7 @@ pub struct Worst {
 pub struct At<'a> {
     program: &'a Program<f64>,
     own: Vec<f64>,
-    /// Those of the machine in the middle of the tolerances, where they are needed.
+    /// Those of the machine in the middle of the tolerances, with the same names of an atlas, where they are needed.
     nominal: Option<Vec<f64>>,
 }
 
@@ -104,6 +104,8 @@ pub struct Sampler<'a> {
     program: Program<f64>,
     /// The parameters that are intervals; over a cell of an atlas also those that vary by themselves.
     pub(super) free: Vec<usize>,
+    /// The widths of their tolerances: 0 of what varies by itself.
+    tolerances: Vec<f64>,
     /// Radicands that depend on the point.
     radicands: Vec<Formula>,
     /// The formulas that each quality needs.
@@ -134,9 +136,7 @@ impl<'a> Sampler<'a> {
             (lo, hi - lo)
         };
         let inputs = problem.inputs.iter().enumerate();
-        let free = inputs.filter(|(_, input)| {
-            matches!(input.value, Value::Quantity(Quantity::Between { .. })) || input.varies()
-        });
+        let free = inputs.filter(|(_, input)| input.has_two_ends() || input.varies());
         let m = problem.dimension();
         let constants: std::collections::HashSet<Formula> =
             problem.tape.constants().into_iter().collect();
@@ -154,6 +154,14 @@ impl<'a> Sampler<'a> {
                 _ => None,
             })
         };
+        let tolerance = |&j: &usize| {
+            let input = &problem.inputs[j];
+            let Some(width) = input.width() else { return 0.0 };
+            let value = Value::Quantity(Quantity::Exactly(width));
+            let width = input::Input { value, ..input.clone() }.enclose(BITS, None);
+            width.map_or(parameters[j].1 - parameters[j].0, |width| middle(&pair(&width, BITS)))
+        };
+        let tolerances = free.iter().map(tolerance).collect();
         let radicands = problem.tape.ops().iter().filter_map(radicand).collect();
         let mut sampler = Sampler {
             problem,
@@ -165,6 +173,7 @@ impl<'a> Sampler<'a> {
             sign: 1.0,
             parameters: parameters.clone(),
             free: free.clone(),
+            tolerances,
         };
         let needed = needed(problem, &sampler.radicands, &sampler.qualities()).into_iter();
         sampler.needed = needed.map(|(own, needed)| (own, program(Some(&needed)))).collect();
@@ -186,6 +195,17 @@ impl<'a> Sampler<'a> {
     /// In how many ways machines differ.
     pub(super) fn frees(&self) -> usize {
         self.free.len()
+    }
+
+    /// What part of all values of a free parameter its tolerance is, of one design.
+    pub(super) fn tolerance_of(&self, free: usize) -> f64 {
+        let (lo, hi) = self.parameters[self.free[free]];
+        let width = self.tolerances[free];
+        if width < hi - lo {
+            width / (hi - lo)
+        } else {
+            1.0
+        }
     }
 
     /// The parts of the workspace's box that a place stands for: outside a cylinder, those of the point
@@ -299,13 +319,16 @@ impl<'a> Sampler<'a> {
     /// The values of some at a place, also for the middle machine where that is asked for.
     fn at_program<'s>(&self, place: &Place, program: &'s Program<f64>, nominal: bool) -> At<'s> {
         let mut inputs = self.inputs(&self.point(&place.u));
-        let nominal = nominal.then(|| program.run(|k| inputs[k]));
         let m = self.box_.len();
-        for (&j, t) in self.free.iter().zip(&place.t) {
-            let (lo, hi) = self.parameters[j];
-            inputs[m + j] = lo + t * (hi - lo);
-        }
-        At { program, own: program.run(|k| inputs[k]), nominal }
+        let mut less = |part: f64| {
+            for ((&j, t), width) in self.free.iter().zip(&place.t).zip(&self.tolerances) {
+                let (lo, hi) = self.parameters[j];
+                inputs[m + j] = lo + t * (hi - lo) - part * (t - 0.5) * width;
+            }
+            program.run(|k| inputs[k])
+        };
+        let nominal = nominal.then(|| less(1.0));
+        At { program, own: less(0.0), nominal }
     }
 
     /// The same at a point in the problem's unit, wherever it is, of the middle machine.

@@ -119,19 +119,22 @@ fn turned_on<'r>(
     far.map_or_else(|| context.refused("of legs with two ends"), |far| Ok((tau, far)))
 }
 
-/// Of each toleranced parameter its half-width over `d`, in the units of formulas.
+/// Of each toleranced parameter its half-width over `d`, in the units of formulas. With names of an atlas it is one
+/// input: as a formula of these it would be as wide as if its two ends had different ones.
 fn half_widths(context: &mut Context<'_>, d: &Expression) -> Vec<(Op, Formula)> {
     let two_d = &Expression::integer(2) * d;
-    let width = |(j, input): (usize, &crate::input::Input)| match &input.value {
-        Value::Quantity(claim::Quantity::Between { min, max }) => {
-            let width = max - min;
-            Some((Op::Parameter(j), &width / &two_d, input.scale))
-        }
-        _ => None,
+    let width = |(j, input): (usize, &crate::input::Input)| {
+        Some((Op::Parameter(j), &input.width()? / &two_d, input.scale))
     };
     let all: Vec<_> = context.builder.inputs.iter().enumerate().filter_map(width).collect();
     let (place, scale) = (context.place, context.builder.scale);
-    let number = |(op, half, own)| (op, context.builder.number(place, &half, own - scale));
+    let number = |(op, half, own): (Op, Expression, i64)| match half.varies() {
+        true => {
+            let half = Value::Quantity(claim::Quantity::Exactly(half));
+            (op, context.builder.input(place, half, own - scale))
+        }
+        false => (op, context.builder.number(place, &half, own - scale)),
+    };
     all.into_iter().map(number).collect()
 }
 

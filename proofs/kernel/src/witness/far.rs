@@ -5,7 +5,7 @@ use crate::arithmetic::{Arithmetic, Enclosure};
 use crate::machine::Leg;
 use crate::number::Expression;
 use crate::slope::{Slope, Slopes};
-use crate::test::accuracy::{near, spread, Accuracy};
+use crate::test::accuracy::{self, near, spread, Accuracy};
 
 impl AtPoint<'_> {
     /// `v . b - |W_t^T v| - |W_c^T v| - (g/2) |v|` for the worst joint errors, at most; `b` is over `d`.
@@ -23,7 +23,9 @@ impl AtPoint<'_> {
         let v = ranges(along);
         let d = of(test.distance)?;
         let mut rest = e.integer(0)?;
-        for ((v, delta), (error, _)) in v.iter().zip(self.off_nominal()?).zip(&test.joints) {
+        for ((v, delta), (error, _)) in
+            v.iter().zip(self.off_nominal(&test.joints)?).zip(&test.joints)
+        {
             let size = if e.is_nonnegative(v) { v.clone() } else { e.neg(v)? };
             rest = e.add(&rest, &e.mul(v, &e.div(&delta, &d)?)?)?;
             rest = e.add(&rest, &e.mul(&size, &of(*error)?)?)?;
@@ -42,8 +44,9 @@ impl AtPoint<'_> {
     /// `rho_i` of the machine in the middle of the tolerance, less `rho_i`, at this point. Of angles,
     /// which count their turns: if for all machines of the tolerance the cosine of the difference is
     /// positive, it is within a quarter of a turn on the way from one to the other, and between its sine
-    /// and its tangent.
-    fn off_nominal(&self) -> Option<Vec<Number>> {
+    /// and its tangent. It is 0 of a joint that is defined for all of the tolerance, with no derivative but 0 by a
+    /// parameter of it: over a cell of an atlas, both would be enclosures for all of its names.
+    fn off_nominal(&self, joints: &[accuracy::Joint]) -> Option<Vec<Number>> {
         let (e, problem) = (self.slopes.arithmetic, self.problem);
         let middle = |(_, min, max): (&str, &Expression, &Expression)| {
             &(min + max) / &Expression::integer(2)
@@ -54,13 +57,16 @@ impl AtPoint<'_> {
             Some(self.values_of(&problem.tape, &parameters))
         };
         let (nominal, all) = (with(&middle)?, with(&[])?);
-        let off = |leg: &Leg| {
+        let off = |(leg, (_, by)): (&Leg, &accuracy::Joint)| {
             let of = |values| AtPoint::off(self.slopes, leg.rho?, [&nominal, values]);
+            if by.is_empty() {
+                return of(&all).and(e.integer(0));
+            }
             let (off, cos) = of(&self.values)?;
             let Some(cos) = cos else { return Some(off.range) };
             of(&all)?;
             Some(e.hull(&off.range, &e.div(&off.range, &cos.range)?))
         };
-        problem.legs.iter().map(off).collect()
+        problem.legs.iter().zip(joints).map(off).collect()
     }
 }

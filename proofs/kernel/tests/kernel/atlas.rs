@@ -466,6 +466,38 @@ fn a_name_is_one_number_wherever_it_stands() {
     }
 }
 
+/// `rho = a x` with an error of 0.1 is off by `0.1/a`: for `a` from 1 to 2, by 0.05 at least. A tolerance puts it off by
+/// more, or by less, and is of the machine.
+#[test]
+fn a_name_is_the_same_in_the_machine_that_joints_are_commanded_for() {
+    let with = |a: &str, max: &str, machine: &[&str]| {
+        let require = format!(
+            r#"[{{"quantity":"accuracy","given":{{"joint_error":["0.1"]}},"end":"max","bound":"{max}"}}]"#
+        );
+        let text = plain(["0", "1"], a, "1")
+            .replace(r#""require":[]"#, &format!(r#""require":{require}"#));
+        let text =
+            text.replace(r#""certified":"1","refuted":"0""#, r#""certified":"0","refuted":"1""#);
+        let witness = Witness {
+            point: vec![number("1")],
+            machine: machine.iter().map(|x| number(x)).collect(),
+            precision: 64,
+            fails: Failure::Obligation(1, vec![vec![1]]),
+        };
+        check(&certificate(claim(&text), vec![AtlasCell::Refuted(witness)]))
+    };
+    with(r#""1+p""#, "0.049", &[]).expect("by 0.05 at least");
+    assert!(with(r#""1+p""#, "0.051", &[]).is_err());
+    let tolerance = r#"{"min":"1.9","max":"2.1"}"#;
+    // rho is 2 in the middle, 1.9 of this machine.
+    with(tolerance, "0.1", &["1.9"]).expect("by 0.2/1.9");
+    assert!(with(tolerance, "0.106", &["1.9"]).is_err());
+    assert!(with(tolerance, "0.05", &["2.1"]).is_err(), "by 0 for this error");
+    // Both ends have the name: what cancels between the two machines is not seen, and nothing shown.
+    let both = r#"{"min":"1+p-0.1","max":"1+p+0.1"}"#;
+    assert!(with(both, "0.049", &["1+p+0.1"]).is_err(), "by 0 for this error");
+}
+
 /// Cells of linear Deltas whose guides' radius and workspace have names are certified only where all of
 /// them are good, by their own formulas at single points.
 #[test]
