@@ -190,7 +190,10 @@ fn joint_range(
     let angular = machine.mechanism.is_angular();
     let joints = machine.mechanism.joints();
     let one = if angular { ANGLES } else { LENGTHS };
-    let accepted = &format!("{one}, or an array of {} such tables", in_words(joints));
+    let accepted = &format!(
+        "{one}, or an array of {} such tables, {{}} for a joint of which nothing is claimed",
+        in_words(joints)
+    );
     if let Mechanism::Formulas(formulas) = &machine.mechanism {
         use orthocert_kernel::claim::JointFormula::Row;
         if formulas.joints.iter().any(|joint| matches!(joint, Row(_))) {
@@ -224,8 +227,12 @@ fn joint_range(
         return Err(value.wrong_type(accepted));
     }
     let mut demands = Vec::new();
-    for (i, value) in values.iter().enumerate() {
-        demands.extend(range(value, Some(i + 1))?);
+    let tables = values.iter().map(|value| value.table(accepted)).collect::<Result<Vec<_>, _>>()?;
+    let is_asked = |i: &usize| !tables[*i].entries().is_empty();
+    // Of none at all the first lacks its ends.
+    let asked: Vec<usize> = (0..joints).filter(is_asked).collect();
+    for i in if asked.is_empty() { vec![0] } else { asked } {
+        demands.extend(range(&values[i], Some(i + 1))?);
     }
     Ok(demands)
 }

@@ -4,6 +4,8 @@ use crate::oracle::{same_as_compiled, same_extremes, same_joints, Extremes, Firm
 use crate::support::{claim, exactly, file, files, folder, ignoring, import, legs, number};
 use crate::support::{Leg, Workspace};
 use orthocert::import::{linuxcnc, Disk, ImportError, Imported};
+use orthocert_kernel::claim::Bound;
+use orthocert_kernel::number::Expression;
 use std::path::PathBuf;
 
 fn on_disk(names: &[&str]) -> Result<Imported, ImportError> {
@@ -233,6 +235,29 @@ fn a_linear_delta() {
     let (min, max) = (corner("-50", "-50", "0"), corner("50", "50", "100"));
     assert_eq!(claim.workspace, Workspace::Box { min, max });
     assert!(!claim.joint_ranges().is_empty());
+}
+
+/// Limits that are not set are 1e99 there; of arms a range has both ends.
+#[test]
+fn some_joints_have_limits() {
+    let joints = |kins: &str, limits: &str| {
+        let ini = format!("[KINS]\nKINEMATICS = {kins}\n{limits}");
+        import(linuxcnc, &[("machine.ini", &ini)])
+    };
+    let limits = "[JOINT_0]\nMIN_LIMIT = 5\nMAX_LIMIT = 260\n[JOINT_2]\nMAX_LIMIT = 250\n";
+    let imported = joints("lineardeltakins", limits).unwrap();
+    let read = claim(&imported);
+    let ranges = read.joint_ranges().into_iter().cloned();
+    let ranges: Vec<_> = ranges.map(|own| (own.leg, own.bound)).collect();
+    let number = |text: &str| Expression::try_from(text.to_owned()).unwrap();
+    let (min, max) = (Bound::Min(number("5")), Bound::Max(number("260")));
+    let expected = [(Some(1), min), (Some(1), max), (Some(3), Bound::Max(number("250")))];
+    assert_eq!(ranges, expected);
+    assert!(imported.not_carried_over.iter().any(|note| note.ends_with("of JOINT_1.")));
+    let arms = joints("rotarydeltakins", "[JOINT_0]\nMIN_LIMIT = -30\n");
+    assert!(matches!(arms, Err(ImportError::Missing { .. })), "{arms:?}");
+    let arms = joints("rotarydeltakins", "[JOINT_1]\nMIN_LIMIT = -30\nMAX_LIMIT = 60\n").unwrap();
+    assert_eq!(claim(&arms).joint_ranges().len(), 1);
 }
 
 #[test]

@@ -137,6 +137,8 @@ fn joint_ranges_may_differ_by_leg() {
     let ranges = "joint_range = [{ min = 1 }, { max = 2 }, { min = 3, max = 3 }]";
     let said = read(&with(BOX, &[(12, ranges)]));
     assert_eq!(said.of("joint_range"), ["[1] min 1", "[2] max 2", "[3] min 3", "[3] max 3"]);
+    let said = read(&with(BOX, &[(12, "joint_range = [{}, { max = 2 }, {}]")]));
+    assert_eq!(said.of("joint_range"), ["[2] max 2"]);
 }
 
 #[test]

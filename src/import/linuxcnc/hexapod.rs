@@ -88,7 +88,7 @@ pub(super) fn hexapod(
     let points = workspace(settings, axes.as_ref(), guess);
     let (orientation, is_narrow) = orientation(settings)?;
     settings.note("Other kinematics than that of switchkins-type 0: they are no hexapod's.");
-    let ranges = joint_range(settings, 6)?;
+    let ranges = joint_range(settings, 6, false)?;
     let requirements = match (is_narrow, ranges.is_empty()) {
         (true, _) => format!("one_to_one = true\n{ranges}"),
         (false, false) => ranges,
@@ -111,13 +111,12 @@ pub(super) fn raised(z: &Number, offsets: &[Number]) -> String {
 
 /// The limits of A, B and C, or a guess; and whether any two differ by less than half a turn.
 fn orientation(settings: &mut Settings) -> Result<(String, bool), ImportError> {
-    let mut axis = |name: &str| limits(settings, &format!("AXIS_{name}"));
-    let all = (axis("A")?, axis("B")?, axis("C")?);
+    let all = limits(settings, ["AXIS_A", "AXIS_B", "AXIS_C"])?;
     let within = |[min, max]: &[Number; 2], most: &str| {
         less(&format!("-{most}"), &min.text) && less(&max.text, most)
     };
     match all {
-        (Some(a), Some(b), Some(c)) if [&a, &b, &c].into_iter().all(|x| within(x, "180")) => {
+        Some([a, b, c]) if [&a, &b, &c].into_iter().all(|x| within(x, "180")) => {
             let span = |[min, max]: &[Number; 2]| format!("({})-({})", max.text, min.text);
             let turned = format!("{}+{}", span(&a), span(&c));
             let range = |[min, max]: &[Number; 2]| format!("[{}, {}]", min.text, max.text);

@@ -91,26 +91,26 @@ fn length(
     }
 }
 
-/// `MIN_LIMIT` and `MAX_LIMIT` of a section, if both are given.
-pub(super) fn limits(
+/// `MIN_LIMIT` and `MAX_LIMIT` of these sections, if all are given.
+pub(super) fn limits<const N: usize>(
     settings: &mut Settings,
-    section: &str,
-) -> Result<Option<[Number; 2]>, ImportError> {
-    let mut limit = |end: &str| {
-        let became = match section.starts_with("AXIS") {
-            true => "an end of the workspace",
-            false => "an end of a joint's range",
-        };
-        settings.number(&format!("[{section}]{end}_LIMIT"), became)
-    };
-    Ok(limit("MIN")?.zip(limit("MAX")?).map(|(min, max)| [min, max]))
+    sections: [&str; N],
+) -> Result<Option<[[Number; 2]; N]>, ImportError> {
+    let keys = sections.map(|section| ["MIN", "MAX"].map(|end| format!("[{section}]{end}_LIMIT")));
+    if keys.iter().flatten().any(|key| settings.peek(key).is_none()) {
+        return Ok(None);
+    }
+    let mut all = Vec::new();
+    for [min, max] in &keys {
+        let mut limit = |key| settings.number(key, "an end of the workspace");
+        all.extend(limit(min)?.zip(limit(max)?).map(|(min, max)| [min, max]));
+    }
+    Ok(all.try_into().ok())
 }
 
 /// The box of the axes' limits, if all are given.
 pub(super) fn axes(settings: &mut Settings) -> Result<Option<[[Number; 2]; 3]>, ImportError> {
-    let mut axis = |name: &str| limits(settings, &format!("AXIS_{name}"));
-    let (x, y, z) = (axis("X")?, axis("Y")?, axis("Z")?);
-    Ok(x.zip(y).zip(z).map(|((x, y), z)| [x, y, z]))
+    limits(settings, ["AXIS_X", "AXIS_Y", "AXIS_Z"])
 }
 
 /// The workspace: the box of the axes' limits, or a guess.
@@ -121,8 +121,8 @@ pub(super) fn workspace(
 ) -> String {
     let Some(axes) = axes else {
         settings.note(
-            "The workspace: MIN_LIMIT and MAX_LIMIT of AXIS_X, AXIS_Y and AXIS_Z are not all given, \
-             and the firmware has no bounds then; what is below is a guess to be changed.",
+            "The workspace: MIN_LIMIT and MAX_LIMIT of AXIS_X, AXIS_Y and AXIS_Z are not all given \
+             (what is, is left out), and the firmware has no bounds then; what is below is a guess to be changed.",
         );
         return guess;
     };
@@ -132,21 +132,40 @@ pub(super) fn workspace(
     format!("min = [{}]\nmax = [{}]\n", corner(0), corner(1))
 }
 
-/// The joints' limits, if all are given.
-pub(super) fn joint_range(settings: &mut Settings, joints: usize) -> Result<String, ImportError> {
-    let mut ranges = String::new();
+/// The joints' limits that are given: of arms both ends or none.
+pub(super) fn joint_range(
+    settings: &mut Settings,
+    joints: usize,
+    is_of_arms: bool,
+) -> Result<String, ImportError> {
+    let (mut ranges, mut without) = (String::new(), Vec::new());
     for joint in 0..joints {
-        let Some([min, max]) = limits(settings, &format!("JOINT_{joint}"))? else {
-            settings.note(format!(
-                "The joints' ranges: MIN_LIMIT and MAX_LIMIT of JOINT_0 to JOINT_{} are not all \
-                 given.",
-                joints - 1
-            ));
-            return Ok(String::new());
-        };
-        ranges.push_str(&format!("  {{ min = {}, max = {} }},\n", min.text, max.text));
+        let (mut ends, mut other) = (Vec::new(), None);
+        for end in ["min", "max"] {
+            let key = format!("[JOINT_{joint}]{}_LIMIT", end.to_uppercase());
+            match settings.number(&key, "an end of a joint's range")? {
+                Some(number) => ends.push(format!("{end} = {}", number.text)),
+                None => other = Some(key),
+            }
+        }
+        if let (1, true, Some(other)) = (ends.len(), is_of_arms, &other) {
+            return Err(settings.lacks(other, "the other end of an arm's range"));
+        }
+        match other {
+            None => {}
+            Some(_) if ends.is_empty() => without.push(format!("JOINT_{joint}")),
+            Some(other) => {
+                settings.note(format!("The joints' ranges: no {other}: that end is open."))
+            }
+        }
+        ranges.push_str(&format!("  {{ {} }},\n", ends.join(", ")).replace("{  }", "{}"));
     }
-    Ok(format!("joint_range = [\n{ranges}]\n"))
+    if !without.is_empty() {
+        let names = without.join(", ");
+        settings.note(format!("The joints' ranges: no MIN_LIMIT and MAX_LIMIT of {names}."));
+    }
+    let is_given = without.len() < joints;
+    Ok(if is_given { format!("joint_range = [\n{ranges}]\n") } else { String::new() })
 }
 
 fn linear_delta(settings: &mut Settings, hal: &mut Hal) -> Result<Machine, ImportError> {
@@ -162,7 +181,7 @@ fn linear_delta(settings: &mut Settings, hal: &mut Hal) -> Result<Machine, Impor
     let axes = axes(settings)?;
     let guess = cylinder(&format!("{}/2", radius.text), ["0", "0"]);
     let workspace = workspace(settings, axes.as_ref(), guess);
-    let requirements = format!("{FACTORS}{}", joint_range(settings, 3)?);
+    let requirements = format!("{FACTORS}{}", joint_range(settings, 3, false)?);
     Ok(Machine {
         title: "Linear Delta",
         kind: "translational",
@@ -207,7 +226,7 @@ fn rotary_delta(settings: &mut Settings, hal: &mut Hal) -> Result<Machine, Impor
     let low = format!("-{}", shin.text);
     let guess = cylinder(&format!("{}/4", thigh.text), [&low, &low]);
     let workspace = workspace(settings, axes.as_ref(), guess);
-    let requirements = format!("{}{}", factors_per_radian(&thigh), joint_range(settings, 3)?);
+    let requirements = format!("{}{}", factors_per_radian(&thigh), joint_range(settings, 3, true)?);
     Ok(Machine {
         title: "Rotary Delta",
         kind: "translational",
@@ -240,7 +259,7 @@ fn tripod(settings: &mut Settings, hal: &mut Hal) -> Result<Machine, ImportError
     let high = format!("({}+{}+{})/2", at[0], at[1], at[2]);
     let guess = cylinder(&format!("{}/10", at[2]), [&high, &high]);
     let workspace = workspace(settings, axes.as_ref(), guess);
-    let requirements = format!("{FACTORS}{}", joint_range(settings, 3)?);
+    let requirements = format!("{FACTORS}{}", joint_range(settings, 3, false)?);
     Ok(Machine {
         title: "Tripod",
         kind: "translational",

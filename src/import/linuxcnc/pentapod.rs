@@ -11,7 +11,7 @@
 
 use super::hal::Hal;
 use super::hexapod::raised;
-use super::machine::{axes, joint_range, limits, pin};
+use super::machine::{joint_range, limits, pin};
 use crate::import::settings::Settings;
 use crate::import::toml::{half_tangent, less, quoted, Machine, Number};
 use crate::import::ImportError;
@@ -89,7 +89,7 @@ pub(super) fn pentapod(settings: &mut Settings, hal: &mut Hal) -> Result<Machine
     );
     let legs = std::iter::once(mechanism).chain(joints).collect();
     let workspace = workspace(settings, &across.join("+"), &heights.join("+"))?;
-    let ranges = joint_range(settings, 5)?;
+    let ranges = joint_range(settings, 5, false)?;
     let requirements =
         if ranges.is_empty() { "joint_range = { min = 0 }\n".to_owned() } else { ranges };
     Ok(Machine { title: "Pentapod", kind: "formulas", unit: None, legs, workspace, requirements })
@@ -97,16 +97,16 @@ pub(super) fn pentapod(settings: &mut Settings, hal: &mut Hal) -> Result<Machine
 
 /// The box of the axes' limits, its angles' half tangents rounded outward, or a guess of the same kind.
 fn workspace(settings: &mut Settings, across: &str, heights: &str) -> Result<String, ImportError> {
-    let points = axes(settings)?;
-    let turned = (limits(settings, "AXIS_A")?, limits(settings, "AXIS_B")?);
-    let half = |limits: Option<[Number; 2]>| -> Option<[String; 2]> {
-        let [min, max] =
-            limits.filter(|[min, max]| less("-180", &min.text) && less(&max.text, "180"))?;
-        let ([least, _], [_, greatest]) = (half_tangent(&min)?, half_tangent(&max)?);
+    let all = limits(settings, ["AXIS_X", "AXIS_Y", "AXIS_Z", "AXIS_A", "AXIS_B"])?;
+    let half = |[min, max]: &[Number; 2]| -> Option<[String; 2]> {
+        let is_within = less("-180", &min.text) && less(&max.text, "180");
+        let turned = || Some((half_tangent(min)?, half_tangent(max)?));
+        let ([least, _], [_, greatest]) = is_within.then(turned)??;
         Some([least, greatest])
     };
-    let [min, max] = match (points, half(turned.0), half(turned.1)) {
-        (Some(points), Some(a), Some(b)) => {
+    let halves = all.and_then(|[x, y, z, a, b]| Some(([x, y, z], half(&a)?, half(&b)?)));
+    let [min, max] = match halves {
+        Some((points, a, b)) => {
             settings.note(
                 "The workspace is the box of the axes' limits, all of which need not be in reach; the tangents \
                  of half of A and B are rounded outward in the 18th decimal.",
