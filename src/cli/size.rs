@@ -155,7 +155,7 @@ fn common_length(claim: &MachineClaim) -> Option<Exact> {
 
 fn side(text: &str) -> Result<BigRational, Failure> {
     let number = input::number("--cube", text)?;
-    let accepted = "a rational number greater than 0: the cube's side";
+    let accepted = "a positive rational number, of 1e-100 to 1e100: the cube's side";
     let side = number.as_rational().filter(|side| side.to_f64().is_some_and(is_side)).cloned();
     side.ok_or_else(|| input::refused("--cube", text, accepted))
 }

@@ -488,7 +488,7 @@ impl<'a> Facts<'a> {
                 boxes: count,
                 share: self.of_workspace(boxes().map(share).fold(0.0, sum_above)),
                 reasons: vec![(reason.to_owned(), count)],
-                help: self.help(quality, undecided.stop, margin),
+                help: self.help((quality, worst), undecided.stop, margin),
             })
         };
         all.into_iter().filter_map(of).collect()
@@ -510,11 +510,22 @@ impl<'a> Facts<'a> {
         of_speed.unwrap_or_else(|| self.sampler.margin(quality, values))
     }
 
-    fn help(&self, quality: Quality, stop: Stop, margin: Option<f64>) -> String {
-        let of_accuracy =
-            self.bounded(quality).filter(|own| own.requirement.quantity == "accuracy");
+    fn help(
+        &self,
+        (quality, worst): (Quality, &[Worst]),
+        stop: Stop,
+        margin: Option<f64>,
+    ) -> String {
+        let is_accuracy = |quality| {
+            self.bounded(quality).is_some_and(|own| own.requirement.quantity == "accuracy")
+        };
+        // Of the distance or of the angle.
+        let is_ample = || {
+            let mut parts = worst.iter().filter(|found| is_accuracy(found.quality));
+            parts.any(|found| found.margin > AMPLE)
+        };
         match (stop, margin) {
-            (_, Some(margin)) if of_accuracy.is_some() && margin > AMPLE => {
+            (_, Some(margin)) if margin > TIE && is_accuracy(quality) && is_ample() => {
                 "smaller bounds: within them there is to be no second pose, which is the harder to show \
                  the more room they leave; twice the worst found is enough"
             }

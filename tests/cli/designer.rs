@@ -1,6 +1,6 @@
 //! What a designer trips over: what is left out is said, and refusals name file, line and key.
 
-use crate::support::{Folder, Run};
+use crate::support::{number, Folder, Run};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::io::Write;
@@ -180,6 +180,58 @@ fn an_accuracy_with_too_much_room_says_so() {
     let text = include_str!("../designs/kernel/hexapod-accuracy.toml");
     folder.write("d.toml", text.replace("max = 0.01, max_angle = 0.05", "max = 5, max_angle = 1"));
     let run = folder.run(&["verify", "d.toml", "--max-boxes", "5"]).exits(3);
+    run.says(&["what would help: smaller bounds: within them there is to be no second pose"]);
+}
+
+/// Both parts of an accuracy are enclosed however much room the design leaves in either, and its own bounds are said to hold
+/// where `verify` proves them.
+#[test]
+fn an_accuracy_with_much_room_is_enclosed() {
+    let folder = Folder::new();
+    let leg = |anchor: &str, platform: &str| {
+        format!("[[mechanism.legs]]\ndrive = \"strut\"\nanchor = {anchor}\nplatform = {platform}\n")
+    };
+    let legs = [
+        leg("[\"0 ± 0.05\", \"400 ± 0.05\"]", "[\"50*sqrt(3)\", 50]"),
+        leg("[\"-200*sqrt(3)\", -200]", "[\"-50*sqrt(3)\", 50]"),
+        leg("[\"200*sqrt(3)\", -200]", "[0, -100]"),
+    ];
+    let design = format!(
+        "[mechanism]\nkind = \"planar\"\ncharacteristic_length = 100\n{}[workspace]\nmin = [-50, -50]\n\
+         max = [50, 50]\norientation = {{ angle = [-20, 20] }}\n[requirements]\n\
+         accuracy = {{ joint_error = 0.05, max = 5, max_angle = 3 }}\n",
+        legs.concat()
+    );
+    folder.write("d.toml", &design);
+    let json = folder.run(&["bounds", "d.toml", "--relative", "1e-2", "--format", "json"]).exits(0);
+    let answer: Value = serde_json::from_str(&json.stdout).unwrap();
+    let row = |unit: &str| {
+        let rows = answer["bounds"].as_array().unwrap().iter();
+        let mut rows = rows.filter(|row| row["quantity"].as_str().unwrap().starts_with("accuracy"));
+        rows.find(|row| (row["unit"] == "deg") == (unit == "deg")).unwrap().clone()
+    };
+    // By Newton's method from the corners of errors and tolerances: 0.1220, and 0.0563 degrees.
+    for (unit, value) in [("", 0.1220), ("deg", 0.0563)] {
+        let row = row(unit);
+        let [min, max] = ["min", "max"].map(|end| number(&row[end]));
+        assert!(min < 1.001 * value && 0.999 * value < max && max < 1.02 * min, "{row}");
+    }
+    let given = number(&row("")["given"]["max_angle"][0]);
+    assert!((0.0563..0.1).contains(&given), "{given}");
+    let given = number(&row("deg")["given"]["max"][0]);
+    assert!((0.122..0.2).contains(&given), "{given}");
+    let told = folder.run(&["bounds", "d.toml", "--relative", "1e-2"]).exits(0);
+    told.says(&[
+        "With a tighter bound on the other part than the design has: accuracy is for",
+        "joint_error 0.05, max_angle 0.08",
+    ]);
+    folder.write("d.toml", design.replace("max = 5", "max = 0.2"));
+    // What is shown within a smaller angle is not said of a design that is not certified.
+    let json = folder.run(&["summary", "d.toml", "--max-boxes", "50", "--format", "json"]).exits(3);
+    let answer: Value = serde_json::from_str(&json.stdout).unwrap();
+    let off = answer["values"].as_array().unwrap().iter().find(|row| row["quantity"] == "accuracy");
+    assert!(off.unwrap().get("certified").is_none(), "{answer}");
+    let run = folder.run(&["verify", "d.toml", "--max-boxes", "50"]).exits(3);
     run.says(&["what would help: smaller bounds: within them there is to be no second pose"]);
 }
 

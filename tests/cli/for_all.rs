@@ -1,6 +1,6 @@
 //! `pave --coordinates`: some coordinates for all values of the others.
 
-use crate::support::Folder;
+use crate::support::{number, Folder};
 use serde_json::Value;
 
 pub fn design(name: &str, changes: &[(&str, &str)]) -> String {
@@ -19,12 +19,6 @@ const FLAT: (&str, &str) = ("[-4, -4, 16]\nmax = [4, 4, 24]", "[-12, -12, 18]\nm
 fn answer(folder: &Folder, arguments: &[&str]) -> Value {
     let run = folder.run(&[arguments, &["--format", "json"]].concat()).exits(0);
     serde_json::from_str(&run.stdout).unwrap()
-}
-
-fn number(value: &Value) -> f64 {
-    let text = value.as_str().unwrap();
-    let (p, q) = text.split_once('/').unwrap_or((text, "1"));
-    p.parse::<f64>().unwrap() / q.parse::<f64>().unwrap()
 }
 
 #[test]

@@ -1,14 +1,8 @@
 //! `largest-cube`.
 
 use crate::paving::DESIGN;
-use crate::support::Folder;
+use crate::support::{number, Folder};
 use serde_json::Value;
-
-fn number(value: &Value) -> f64 {
-    let text = value.as_str().unwrap();
-    let (numerator, denominator) = text.split_once('/').unwrap_or((text, "1"));
-    numerator.parse::<f64>().unwrap() / denominator.parse::<f64>().unwrap()
-}
 
 #[test]
 fn the_bounds_enclose_the_closed_form() {

@@ -1,6 +1,6 @@
 //! `limit`: both ends of every kind of number are what `verify` says of them; what is refused.
 
-use crate::support::{Folder, Run};
+use crate::support::{number, Folder, Run};
 use serde_json::Value;
 
 const BOX: &str = "orthoglide-312.toml";
@@ -8,14 +8,6 @@ const DELTA: &str = "linear-delta-klipper-cylinder.toml";
 
 fn answer(run: &Run) -> Value {
     serde_json::from_str(&run.stdout).unwrap()
-}
-
-fn number(value: &Value) -> f64 {
-    let text = value.as_str().unwrap();
-    match text.split_once('/') {
-        Some((p, q)) => p.parse::<f64>().unwrap() / q.parse::<f64>().unwrap(),
-        None => text.parse().unwrap(),
-    }
 }
 
 /// The limits of a number, as `--format json` tells them; `edit` writes the number into the design

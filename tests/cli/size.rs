@@ -1,16 +1,8 @@
 //! `size`: both ends against the closed form, scales, and what is refused.
 
-use crate::support::Folder;
+use crate::support::{number, Folder};
 use orthocert::exact::Exact;
 use serde_json::Value;
-
-fn number(value: &Value) -> f64 {
-    let text = value.as_str().unwrap();
-    match text.split_once('/') {
-        Some((p, q)) => p.parse::<f64>().unwrap() / q.parse::<f64>().unwrap(),
-        None => text.parse().unwrap(),
-    }
-}
 
 fn sized(folder: &Folder, arguments: &[&str]) -> Value {
     let all = [&["size"], arguments, &["--format", "json"]].concat();

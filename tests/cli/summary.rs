@@ -1,17 +1,9 @@
 //! `summary`: values against closed forms, the nearest requirement, every kind of machine, refused.
 
-use crate::support::Folder;
+use crate::support::{number, Folder};
 use serde_json::Value;
 
 const PROTOTYPE_STROKE: f64 = 256.993_015_636_8;
-
-fn number(value: &Value) -> f64 {
-    let text = value.as_str().unwrap();
-    match text.split_once('/') {
-        Some((p, q)) => p.parse::<f64>().unwrap() / q.parse::<f64>().unwrap(),
-        None => text.parse().unwrap(),
-    }
-}
 
 fn summary(folder: &Folder, arguments: &[&str], code: i32) -> Value {
     let all = [&["summary"], arguments, &["--format", "json"]].concat();

@@ -8,6 +8,13 @@ use tempfile::TempDir;
 /// A design that the search gives up on only when its budget is used up.
 pub const LONG: &str = "long.toml";
 
+/// A decimal, or a fraction, of an answer.
+pub fn number(value: &serde_json::Value) -> f64 {
+    let (numerator, denominator) =
+        value.as_str().map(|x| x.split_once('/').unwrap_or((x, "1"))).unwrap();
+    numerator.parse::<f64>().unwrap() / denominator.parse::<f64>().unwrap()
+}
+
 /// A folder in which the binary runs.
 pub struct Folder(TempDir);
 

@@ -10,7 +10,8 @@ use crate::search::solver::enclose::{Enclosed, NotEnclosed};
 use crate::search::solver::extremes::{of_cube, Extreme};
 use num_rational::BigRational;
 use orthocert_checker::certificate::{Certificate, Proof};
-use orthocert_kernel::claim::{self as kernel, Requirement};
+use orthocert_kernel::certificate::Claim;
+use orthocert_kernel::claim::{self as kernel, Bound, Requirement};
 use orthocert_kernel::number::Expression;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -33,6 +34,12 @@ pub(super) struct Row {
     /// Whether the design says so; a unit of each, if not.
     #[serde(skip)]
     pub(super) is_asked: bool,
+    /// Whether it is for less of an accuracy's other part than the design says.
+    #[serde(skip)]
+    pub(super) is_nearer: bool,
+    /// Whether it is the angle of an accuracy.
+    #[serde(skip)]
+    is_angle: bool,
     /// Below the extreme, or equal.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) min: Option<Exact>,
@@ -77,6 +84,8 @@ impl Row {
             end: if greatest { "greatest" } else { "least" },
             given: BTreeMap::new(),
             is_asked: true,
+            is_nearer: false,
+            is_angle: false,
             min: None,
             max: None,
             point: None,
@@ -91,17 +100,15 @@ impl Row {
     /// Of this extreme of a claim.
     pub(super) fn of(claim: &kernel::MachineClaim, extreme: &Extreme, angular: bool) -> Self {
         let own = &extreme.bounded().requirement;
-        let texts = |(name, all): (&String, &Vec<Expression>)| {
-            (name.clone(), all.iter().map(Expression::to_string).collect())
-        };
-        let given = own.given.iter().map(texts).collect();
+        let is_angle = extreme.bounded().angle;
+        let given = given(own, is_angle);
         let same = |one: &Requirement| own.quantity == one.quantity && own.given == one.given;
         let is_asked = own.given.is_empty() || claim.require.iter().any(same);
         let row = Row::new(&extreme.name(), extreme.unit(angular), extreme.is_greatest());
-        Row { quantity: extreme.symbol(), given, is_asked, ..row }
+        Row { quantity: extreme.symbol(), given, is_asked, is_angle, ..row }
     }
 
-    /// With what was found of it.
+    /// With what was found of it: of an accuracy, for the bound on its other part with which it is certified.
     pub(super) fn found(
         mut self,
         stem: &str,
@@ -112,6 +119,12 @@ impl Row {
         match found {
             Ok(Enclosed { width, inner, outer, refuted, certified, .. }) => {
                 self.enclosed((width, inner, outer), relative);
+                if let (true, Claim::Machine(claim)) = (self.is_asked, &certified.claim) {
+                    let given = claim.require.first().map(|own| given(own, self.is_angle));
+                    let given = given.unwrap_or_default();
+                    self.is_nearer = given != self.given;
+                    self.given = given;
+                }
                 self.store(arguments, stem, (refuted.as_deref(), &*certified))?;
                 Ok(self)
             }
@@ -158,6 +171,17 @@ impl Row {
         }
         Ok(())
     }
+}
+
+/// What a requirement is for; the angle of an accuracy, with which distance.
+fn given(own: &Requirement, is_angle: bool) -> BTreeMap<String, Vec<String>> {
+    let mut given = own.given.clone();
+    if let (true, Bound::Max(distance)) = (is_angle, &own.bound) {
+        given.remove("max_angle");
+        given.insert("max".to_owned(), vec![distance.clone()]);
+    }
+    let texts = |all: Vec<Expression>| all.iter().map(Expression::to_string).collect();
+    given.into_iter().map(|(name, all)| (name, texts(all))).collect()
 }
 
 fn witness_point(certificate: &Certificate) -> Option<Vec<Exact>> {

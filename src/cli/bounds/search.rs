@@ -65,6 +65,7 @@ impl Question {
                 if let Some(parts) = required.filter(|_| has_limit) {
                     own.push(sought.as_required(budget.shared(parts), control));
                 }
+                let sought = if budget.is_over() { sought } else { sought.nearer() };
                 let found = sought.enclose(relative, budget, control);
                 if !has_limit && matches!(found, Err(NotEnclosed::Undecided)) {
                     own.push(sought.as_required(budget, control));

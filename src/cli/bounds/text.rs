@@ -125,6 +125,16 @@ pub(super) fn text(
         ("joint force", "joint force is that of a tool force of 1"),
     ];
     let units: Vec<&str> = units.into_iter().filter_map(said).collect();
+    for (is_nearer, of) in [
+        (false, "Of what the design names"),
+        (true, "With a tighter bound on the other part than the design has"),
+    ] {
+        let own = rows.iter().filter(|row| row.is_nearer == is_nearer);
+        let given: Vec<String> = own.filter_map(given).collect();
+        if !given.is_empty() {
+            wrap(&mut out, &format!("{of}: {}.", given.join("; ")), 2);
+        }
+    }
     if !units.is_empty() {
         wrap(&mut out, &format!("Of what the design does not name: {}.", listed(&units)), 2);
     }
@@ -133,4 +143,14 @@ pub(super) fn text(
     }
     let _ = writeln!(out, "\n  {}", duration(started.elapsed().as_secs_f64()));
     out
+}
+
+/// What a row is for, by the design's keys; a direction is its leg's own, and a unit of tool speed is in the name.
+fn given(row: &Row) -> Option<String> {
+    let number = |(key, all): (&String, &Vec<String>)| {
+        (key != "axis").then(|| format!("{key} {}", all.join(", ")))
+    };
+    let all: Vec<String> = row.given.iter().filter_map(number).collect();
+    let is_told = row.is_asked && row.not_enclosed.is_none() && !row.name.contains("/tool");
+    (is_told && !all.is_empty()).then(|| format!("{} is for {}", row.name, all.join(", ")))
 }

@@ -1,11 +1,12 @@
 //! What each tolerance adds to the inaccuracy: the bound on `accuracy` with one tolerance alone.
 
 use super::deviation::{deviation, is_one_of_two};
+use super::enclosed;
 use super::{End, Found};
 use crate::exact::Exact;
 use crate::questions::tolerance::{around, legs_mut, parameters};
 use crate::report::parameter;
-use crate::search::solver::enclose::{enclose, NotEnclosed};
+use crate::search::solver::enclose::NotEnclosed;
 use crate::search::solver::extremes::Extreme;
 use crate::search::{at_once, Budget, Control};
 use num_rational::BigRational;
@@ -93,12 +94,12 @@ pub fn deviations(claim: &MachineClaim) -> usize {
     bounded(claim).map_or(0, |_| count)
 }
 
-/// The shares of a claim that bounds its accuracy and has tolerances.
+/// The shares of a claim that bounds its accuracy and has tolerances, and is certified or not.
 ///
 /// # Errors
 /// If a claim is not well formed.
 pub fn shares(
-    claim: &MachineClaim,
+    (claim, certified): (&MachineClaim, bool),
     gap: &BigRational,
     found: &[Found],
     budget: Budget,
@@ -137,7 +138,10 @@ pub fn shares(
             _ if budget.is_over() => Err(NotEnclosed::Time),
             true => deviation(&one, own, None, budget.at_most(FEW), control)
                 .map(|[End { certified, .. }, _]| certified),
-            false => enclose(&one, &extreme, gap, budget, control).map(|found| found.outer),
+            // What one deviation does is among what all do: with the claim this is certified.
+            false => {
+                enclosed((&one, certified), &extreme, gap, budget, control).map(|found| found.outer)
+            }
         };
         Ok::<_, NotEnclosed>(Some((name, bound)))
     };

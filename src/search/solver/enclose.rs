@@ -20,6 +20,8 @@ use orthocert_kernel::problem::Problem;
 
 /// Finest step of the search for an extreme.
 const FINEST: i32 = 30;
+/// The same where it need not be known better than to a tenth.
+const ROUGH: i32 = 8;
 /// Open boxes from whose centres a better inner end is looked for.
 const OPEN_CENTRES: usize = 8;
 /// Boxes after which a width is given up for a looser one. Of platforms that turn it is a third of the second number for
@@ -117,6 +119,8 @@ pub fn enclose(
 pub struct Sought<'a> {
     claim: &'a MachineClaim,
     extreme: &'a Extreme,
+    /// With what it is enclosed first.
+    near: Option<Extreme>,
     probe: Problem,
     known: Found,
 }
@@ -128,8 +132,17 @@ impl<'a> Sought<'a> {
     /// See [`NotEnclosed`].
     pub fn new(claim: &'a MachineClaim, extreme: &'a Extreme) -> Result<Self, NotEnclosed> {
         let probe = extreme.probe(claim).ok_or(NotEnclosed::Undecided)?;
-        let known = Found::worst(&probe, extreme, ROUNDS)?;
-        Ok(Sought { claim, extreme, probe: Problem::new(&probe)?, known })
+        let known = Found::worst(&probe, extreme, (ROUNDS, FINEST))?;
+        Ok(Sought { claim, extreme, near: None, probe: Problem::new(&probe)?, known })
+    }
+
+    /// An accuracy's distance is enclosed with an angle, and its angle with a distance, that is not much more than what
+    /// sampling finds of it: within the claim's own the machine may be curved by more than what is sought. What is shown so
+    /// is another claim, of the same pose where the claim itself is certified.
+    #[must_use]
+    pub fn nearer(mut self) -> Self {
+        self.near = nearer(self.claim, self.extreme);
+        self
     }
 
     /// Encloses it to the relative width `relative`, or where that does not succeed to a looser one, up to eight times
@@ -143,7 +156,23 @@ impl<'a> Sought<'a> {
         budget: Budget,
         control: &mut Control<'_>,
     ) -> Result<Enclosed, NotEnclosed> {
-        let Sought { claim, extreme, probe, known } = self;
+        let near = self.near.as_ref().map(|near| self.enclose_as(near, relative, budget, control));
+        match near {
+            None | Some(Err(NotEnclosed::Undecided)) => {
+                self.enclose_as(self.extreme, relative, budget, control)
+            }
+            Some(found) => found,
+        }
+    }
+
+    fn enclose_as(
+        &self,
+        extreme: &Extreme,
+        relative: &BigRational,
+        budget: Budget,
+        control: &mut Control<'_>,
+    ) -> Result<Enclosed, NotEnclosed> {
+        let Sought { claim, probe, known, .. } = self;
         let (budget, mut known) = (of_one_width(budget, probe), known.clone());
         let (mut steps, mut begun) = (Steps::default(), None);
         let found = narrowest(relative, budget.deadline.is_some(), |width| {
@@ -185,7 +214,7 @@ impl<'a> Sought<'a> {
         budget: Budget,
         control: &mut Control<'_>,
     ) -> Result<Enclosed, NotEnclosed> {
-        let Sought { claim, extreme, probe, known } = self;
+        let Sought { claim, extreme, probe, known, .. } = self;
         let own = extreme.required_bound(claim).ok_or(NotEnclosed::Undecided)?;
         let own_claim = extreme.well_formed(claim, &own).ok_or(NotEnclosed::Undecided)?;
         if budget.is_over() || own.to_f64().is_none_or(|own| !extreme.is_beyond(own, known.value)) {
@@ -205,6 +234,16 @@ impl<'a> Sought<'a> {
         let width = (&own - &inner).abs() / known.size()?;
         Ok(Enclosed { width, inner, outer: own, refuted, certified, boxes })
     }
+}
+
+/// With a bound on the other part of an accuracy of half as much again as what sampling finds of it, if the claim's is more;
+/// what is as small as nothing has some room all the same.
+fn nearer(claim: &MachineClaim, extreme: &Extreme) -> Option<Extreme> {
+    let (other, own) = extreme.other_part(claim)?;
+    let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
+    let seen = Found::worst(&other.probe(claim)?, &other, (1, ROUGH)).ok()?;
+    let found = beyond(seen.value, &ratio(3, 2))?.max(&own * ratio(1, 1000));
+    extreme.with_other_part(&found).filter(|_| found < own)
 }
 
 /// What is found at the width `relative`, or else at the narrowest of its doubles up to [`loosest`], by halves of
@@ -252,8 +291,7 @@ pub fn reached(
     extreme: &Extreme,
     relative: &BigRational,
 ) -> Result<(f64, Option<BigRational>), NotEnclosed> {
-    let probe = extreme.probe(claim).ok_or(NotEnclosed::Undecided)?;
-    let known = Found::worst(&probe, extreme, ROUNDS)?;
+    let Sought { known, .. } = Sought::new(claim, extreme)?;
     let found = inner_end(claim, extreme, &known, [relative, &loosest()])?;
     Ok((known.value, found.filter(|found| found.refuted.is_some()).map(|found| found.value)))
 }
@@ -299,7 +337,7 @@ fn inner_end(
 /// See [`NotEnclosed`].
 pub fn seen(claim: &MachineClaim, extreme: &Extreme) -> Result<f64, NotEnclosed> {
     let probe = extreme.probe(claim).ok_or(NotEnclosed::Undecided)?;
-    Ok(Found::worst(&probe, extreme, 1)?.value)
+    Ok(Found::worst(&probe, extreme, (1, FINEST))?.value)
 }
 
 /// A decimal near a value times `factor`; none of zero.
@@ -335,14 +373,18 @@ struct Found {
 impl Found {
     /// By sampling: of a bound that is met with equality at the worst place found so far, the place at
     /// which it is violated most, until there is none.
-    fn worst(probe: &MachineClaim, extreme: &Extreme, rounds: usize) -> Result<Self, NotEnclosed> {
+    fn worst(
+        probe: &MachineClaim,
+        extreme: &Extreme,
+        (rounds, finest): (usize, i32),
+    ) -> Result<Self, NotEnclosed> {
         let mut claim = probe.clone();
         let mut best: Option<Found> = None;
         for _ in 0..rounds {
             let problem = Problem::new(&claim)?;
             let sampler = Sampler::new(&claim, &problem)?;
             let mut found: Option<(f64, Place)> = None;
-            for Worst { quality, place, .. } in sampler.worst_values(FINEST) {
+            for Worst { quality, place, .. } in sampler.worst_values(finest) {
                 let Quality::Obligation(number) = quality else { continue };
                 let Some(bounded) = extreme.of_obligation(&claim, &problem, number) else {
                     continue;

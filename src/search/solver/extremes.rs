@@ -23,6 +23,10 @@ fn unit_given(name: &str) -> Option<Expression> {
     matches!(name, "tool" | "joint").then(|| Expression::integer(1))
 }
 
+fn rational(x: &Expression) -> Option<BigRational> {
+    Exact::of(x)?.as_rational().cloned()
+}
+
 impl Extreme {
     /// The end of a quantity that a requirement bounds, whatever its bound: of the leg given, counted from
     /// zero, or of all together. `None` where that is no bound on a number.
@@ -119,6 +123,28 @@ impl Extreme {
         (is_it && greatest).then_some(Extreme { bounded })
     }
 
+    /// Of an accuracy's distance the angle, and of its angle the distance, where it has both; and the rational bound on that.
+    pub(super) fn other_part(&self, claim: &MachineClaim) -> Option<(Self, BigRational)> {
+        let Bounded { requirement, angle, .. } = &self.bounded;
+        let (other, bound) = match (angle, &requirement.bound, &claim.mechanism) {
+            (false, ..) => {
+                (Self::angle(claim, requirement)?, requirement.given.get("max_angle")?.first()?)
+            }
+            (true, _, Mechanism::Spherical(_)) => return None,
+            (true, Bound::Max(bound), _) => (Self::on(requirement.clone(), None)?, bound),
+            (true, ..) => return None,
+        };
+        Some((other, rational(bound)?))
+    }
+
+    /// With this bound on that.
+    pub(super) fn with_other_part(&self, bound: &BigRational) -> Option<Self> {
+        let own = self.bounded.clone();
+        let other = Bounded { angle: !own.angle, ..own.clone() };
+        let requirement = other.bounded_by(number(bound))?;
+        Some(Extreme { bounded: Bounded { requirement, ..own } })
+    }
+
     /// The extremes that a claim's requirements bound.
     pub fn required(claim: &MachineClaim, legs: usize) -> Vec<Self> {
         let bounds = |own: &Requirement, one: &Requirement| {
@@ -142,8 +168,10 @@ impl Extreme {
                 && (own.given == one.given || is_speed)
                 && (own.leg.is_none() || own.leg == one.leg)
         };
-        let rational = |x: &Expression| Exact::of(x)?.as_rational().cloned();
         let of = |own: &Requirement| {
+            if self.bounded.angle {
+                return rational(own.given.get("max_angle")?.first()?);
+            }
             let x = match (&own.bound, &one.bound) {
                 (Bound::Min(x) | Bound::Within([x, _]), Bound::Min(_)) => x,
                 (Bound::Max(x) | Bound::Within([_, x]), Bound::Max(_)) => x,
@@ -155,8 +183,7 @@ impl Extreme {
                 tool.map_or_else(|| Some(BigRational::one()), |tool| rational(tool.first()?));
             Some(rational(x)? / tool.filter(|tool| !tool.is_zero())?)
         };
-        // Of an accuracy it is the distance's.
-        let all = claim.require.iter().filter(is_it).filter_map(of).filter(|_| !self.bounded.angle);
+        let all = claim.require.iter().filter(is_it).filter_map(of);
         all.reduce(if self.is_greatest() { BigRational::min } else { BigRational::max })
     }
 
