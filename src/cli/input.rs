@@ -76,6 +76,9 @@ impl Begun {
     }
 }
 
+/// From where to where lengths, speeds and forces of options are.
+pub const SIZES: [&str; 2] = ["1e-100", "1e100"];
+
 /// The exact number that an option's value is.
 pub fn number(option: &str, text: &str) -> Result<Exact, Failure> {
     let shown = quoted(text);

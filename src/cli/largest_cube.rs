@@ -8,10 +8,8 @@ use crate::exact::Exact;
 use crate::files::output;
 use crate::files::read::named_after;
 use crate::questions::largest_cube::{cube_of_side, largest_cube, Bracket};
-use crate::questions::size::is_side;
 use crate::report::text::{duration, labelled, verbatim};
 use crate::report::{counterexample, CertificateFile, Counterexample};
-use crate::search::solver::approximate;
 use num_rational::BigRational;
 use num_traits::{FromPrimitive, ToPrimitive};
 use orthocert_checker::certificate::{Certificate, Verdict};
@@ -205,9 +203,8 @@ fn reached(bracket: &Bracket) -> Option<f64> {
 }
 
 fn side(text: &str) -> Result<Expression, Failure> {
-    let number = input::number("--side", text)?;
-    let side = written(&number).filter(|side| approximate(side).is_some_and(is_side));
-    side.ok_or_else(|| input::refused("--side", text, "a positive number, of 1e-100 to 1e100"))
+    let side = input::within("--side", text, input::SIZES)?;
+    written(&side).ok_or_else(|| input::refused("--side", text, "a number of fewer digits"))
 }
 
 impl Arguments {

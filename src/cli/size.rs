@@ -6,11 +6,10 @@ use crate::design::Design;
 use crate::exact::decimal::{exact, outward, readable, rounded, Toward};
 use crate::exact::Exact;
 use crate::questions::frontier::{Bracket, Certified, NoAnswer};
-use crate::questions::size::{is_side, Family, Scope, Unknown};
+use crate::questions::size::{Family, Scope, Unknown};
 use crate::report::text::{duration, labelled, verbatim, wrap};
 use crate::report::{counterexample, CertificateFile, Counterexample};
 use num_rational::BigRational;
-use num_traits::ToPrimitive;
 use orthocert_checker::certificate::Certificate;
 use orthocert_kernel::claim::{Leg, MachineClaim, Mechanism, Quantity};
 use serde::Serialize;
@@ -94,7 +93,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let started = Instant::now();
     let effort = &arguments.effort;
     let width = gap(&arguments.gap, ["1e-9", "0.1"])?;
-    let side = side(&arguments.cube)?;
+    let side = input::rational_within("--cube", &arguments.cube, input::SIZES)?;
     let design = input::design(arguments.design.as_deref(), effort.quiet)?;
     let claim = &design.claim;
     if let Some(folder) = &arguments.output {
@@ -151,13 +150,6 @@ fn common_length(claim: &MachineClaim) -> Option<Exact> {
     let first = length(legs.first()?)?;
     let same = legs.iter().all(|leg| length(leg).as_ref() == Some(&first));
     same.then(|| Exact::of(&first)).flatten()
-}
-
-fn side(text: &str) -> Result<BigRational, Failure> {
-    let number = input::number("--cube", text)?;
-    let accepted = "a positive rational number, of 1e-100 to 1e100: the cube's side";
-    let side = number.as_rational().filter(|side| side.to_f64().is_some_and(is_side)).cloned();
-    side.ok_or_else(|| input::refused("--cube", text, accepted))
 }
 
 /// The relative width that an option `--gap` asks for.

@@ -8,7 +8,6 @@ use crate::report::text::headline_of;
 use crate::report::Outcome;
 use crate::search::solver::verify;
 use num_rational::BigRational;
-use num_traits::Signed;
 use orthocert_kernel::number::Expression;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -53,12 +52,13 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let started = Instant::now();
     let effort = &arguments.effort;
-    let asked = |option, text: &Option<String>, example| {
-        text.as_deref().map(|text| positive(option, text, example)).transpose()
+    let asked = |option, text: &Option<String>| -> Result<Option<Expression>, Failure> {
+        let rational = |text| input::rational_within(option, text, input::SIZES);
+        Ok(text.as_deref().map(rational).transpose()?.as_ref().map(number))
     };
-    let speed = asked("--speed", &arguments.speed, "1200")?;
-    let force = asked("--force", &arguments.force, "100")?;
-    let acceleration = asked("--acceleration", &arguments.acceleration, "14000")?;
+    let speed = asked("--speed", &arguments.speed)?;
+    let force = asked("--force", &arguments.force)?;
+    let acceleration = asked("--acceleration", &arguments.acceleration)?;
     let gap = |text| input::rational_within("--gap", text, ["1e-9", "0.1"]);
     let gap = arguments.gap.as_deref().map(gap).transpose()?;
     let budget = effort.budget(started)?;
@@ -116,12 +116,4 @@ fn status(verdict: Outcome) -> Status {
         Outcome::Decided(verdict) => Status::Decided(verdict),
         Outcome::Undecided => Status::Undecided,
     }
-}
-
-/// The positive number that an option's value is.
-fn positive(option: &str, text: &str, example: &str) -> Result<Expression, Failure> {
-    let found = input::number(option, text)?;
-    let found = found.as_rational().filter(|x| x.is_positive()).map(number);
-    let accepted = format!("a rational number greater than 0, such as {example}");
-    found.ok_or_else(|| input::refused(option, text, &accepted))
 }

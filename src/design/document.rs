@@ -94,7 +94,9 @@ impl<'a> Document<'a> {
                 "a certificate",
                 "a design file (TOML text); `orthocert check` re-proves certificates",
             ),
-            Some((what @ "string values must be quoted", _)) => (what, QUOTED_VALUES),
+            Some((what @ ("string values must be quoted" | "invalid float"), _)) => {
+                (what, QUOTED_VALUES)
+            }
             Some((what, expected)) => (what, expected),
             None if error.message() == "duplicate key" => {
                 let key = self.text.get(at.clone()).unwrap_or_default().trim();

@@ -365,8 +365,3 @@ fn leg_length(claim: &MachineClaim) -> Option<f64> {
     }
     approximate(common.filter(|_| legs.len() == 3)?)
 }
-
-/// Whether a number can be the side of a cube.
-pub fn is_side(side: f64) -> bool {
-    (1e-100..=1e100).contains(&side)
-}

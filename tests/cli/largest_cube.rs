@@ -63,10 +63,10 @@ fn bad_usage_is_refused() {
     for (arguments, code, complaint) in [
         (&["--gap", "0"][..], 2, "from 1e-9 to 0.5"),
         (&["--gap", "many"], 2, "not a number"),
-        (&["--side", "-1"], 2, "accepted: a positive number"),
-        (&["--side", "1e-310"], 2, "of 1e-100 to 1e100"),
-        (&["--side", "1e-400"], 2, "of 1e-100 to 1e100"),
-        (&["--side", "1e309"], 2, "of 1e-100 to 1e100"),
+        (&["--side", "-1"], 2, "from 1e-100 to 1e100"),
+        (&["--side", "1e-310"], 2, "from 1e-100 to 1e100"),
+        (&["--side", "1e-400"], 2, "from 1e-100 to 1e100"),
+        (&["--side", "1e309"], 2, "from 1e-100 to 1e100"),
         (&["--side", "1", "--gap", "0.1"], 2, "cannot be used with"),
         (&["-o", "missing"], 4, "there is no folder"),
     ] {

@@ -316,7 +316,7 @@ fn the_tolerance_that_matters_most_comes_first() {
 fn what_is_no_speed_is_refused_with_the_option_and_what_is_accepted() {
     let folder = Folder::new();
     for option in ["--speed", "--force", "--acceleration"] {
-        for text in ["-1", "0", "x", "sqrt(2)", "1 ± 0.1", "inf"] {
+        for text in ["-1", "0", "x", "sqrt(2)", "1 ± 0.1", "inf", "1e400", "1e-400"] {
             folder.run(&["summary", option, text]).exits(2).complains(&[option, "accepted"]);
         }
     }

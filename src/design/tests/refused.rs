@@ -200,6 +200,8 @@ fn texts_that_are_not_toml() {
             Syntax, "333 mm: string values must be quoted", "numbers carry no unit: \"333\""),
         row!("tolerance without quotes", BOX, [(4, "leg_length = 310 ± 1")], 4,
             "mechanism.leg_length", Syntax, "must be quoted", "\"310.25 ± 0.02\""),
+        row!("a call", BOX, [(4, "leg_length = np.float64(1)")], 4, "mechanism.leg_length", Syntax,
+            "invalid float", "a plain number, or text in quotes"),
         row!("decimal comma", BOX, [(4, "leg_length = 310,25")], 4, "mechanism.leg_length", Syntax,
             "a comma in a number", "a point: 310.7"),
         row!("a range as an array", BOX, [(12, "joint_range = [0, 257]")], 12, "requirements.joint_range",
