@@ -26,7 +26,7 @@ pub fn number(x: &BigRational) -> Expression {
             positive
         }
     };
-    let (mut places, mut rest) = places(x.denom());
+    let (mut places, mut rest) = decimal_places(x.denom());
     let most = if x.denom().bits() > MOST_BITS { MOST_DECIMALS } else { MOST_PLACES };
     if places > most || most == MOST_PLACES && !rest.is_one() {
         (places, rest) = (0, x.denom().clone());
@@ -41,7 +41,7 @@ pub fn number(x: &BigRational) -> Expression {
 }
 
 /// For a denominator `2^a 5^b r`, `r` with neither factor, the least `p` such that `2^a 5^b` divides `10^p`, and `r`.
-fn places(denominator: &BigInt) -> (u32, BigInt) {
+pub(super) fn decimal_places(denominator: &BigInt) -> (u32, BigInt) {
     let mut rest = denominator.clone();
     let mut count = |prime: u32| {
         let (prime, mut times) = (BigInt::from(prime), 0);

@@ -1,5 +1,6 @@
 //! Decimal notation of exact numbers, and of enclosures with every digit certified.
 
+use crate::exact::arithmetic::decimal_places;
 use crate::exact::Exact;
 use num_bigint::BigInt;
 use num_integer::Integer;
@@ -104,22 +105,11 @@ fn written(mantissa: &BigInt, exponent: i64, digits: i64) -> String {
 
 /// The decimal that a rational is exactly, if it has one of at most `places` decimal places.
 pub fn terminating(x: &BigRational, places: u32) -> Option<String> {
-    let mut rest = x.denom().clone();
-    let mut needed = 0;
-    let ten = BigInt::from(10);
-    while !rest.is_one() {
-        if needed == places {
-            return None;
-        }
-        // One decimal place takes a factor of two and a factor of five, where they are there.
-        let gcd = rest.gcd(&ten);
-        if gcd.is_one() {
-            return None;
-        }
-        rest /= gcd;
-        needed += 1;
+    let (needed, rest) = decimal_places(x.denom());
+    if needed > places || !rest.is_one() {
+        return None;
     }
-    let digits = (x * ten.pow(needed)).to_integer().abs().to_string();
+    let digits = (x * BigInt::from(10).pow(needed)).to_integer().abs().to_string();
     let sign = if x.is_negative() { "-" } else { "" };
     let width = needed as usize + 1;
     let digits = format!("{digits:0>width$}");
