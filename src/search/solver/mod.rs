@@ -78,6 +78,7 @@ use orthocert_kernel::claim::{Bound, MachineClaim};
 use orthocert_kernel::input::ClaimError;
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
+use rayon::prelude::*;
 use sample::{Sampler, Worst};
 use search::{search, search_below, Branch, Ends, Open, Outcome};
 use std::sync::atomic::AtomicBool;
@@ -517,10 +518,14 @@ fn refuted(claim: &MachineClaim, witness: Witness) -> Result<Confirmed, Option<R
 /// Improves the worst values from the centres of at most so many of the open boxes.
 fn look_into(sampler: &Sampler<'_>, open: &[Open], centres: usize, worst: &mut [Worst]) {
     let stride = open.len().div_ceil(centres).max(1);
-    for item in open.iter().step_by(stride) {
+    let items: Vec<&Open> = open.iter().step_by(stride).collect();
+    let below = |item: &&Open| -> Vec<Worst> {
         let start = sampler.place_in(&item.cell);
-        for known in worst.iter_mut() {
-            let found = sampler.descend(known.quality, &start, FINEST);
+        worst.iter().map(|known| sampler.descend(known.quality, &start, FINEST)).collect()
+    };
+    let all: Vec<Vec<Worst>> = items.par_iter().map(below).collect();
+    for found in all {
+        for (known, found) in worst.iter_mut().zip(found) {
             if found.margin < known.margin {
                 *known = found;
             }
