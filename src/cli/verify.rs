@@ -5,7 +5,7 @@ use crate::files::read::Named;
 use crate::jobs::batch::plan::{certificate_of, identity};
 use crate::report::{text, Margin, Report};
 use crate::search::solver;
-use crate::search::solver::enclose::Sought;
+use crate::search::solver::enclose::enclose;
 use crate::search::solver::extremes::Extreme;
 use crate::search::Budget;
 use num_rational::BigRational;
@@ -118,8 +118,8 @@ fn margins(
     let name = |extreme: &Extreme| format!("margin of {}", extreme.name());
     let names: Vec<String> = all.iter().map(name).collect();
     let found = effort.bar().at_once(&names, 0, |number, turns, control| {
-        let sought = Sought::new(claim, &all[number]).ok()?.nearer();
-        let found = sought.enclose(&width, budget.shared(turns), control).ok()?;
+        let (one, budget) = (&all[number], budget.shared(turns));
+        let found = enclose((claim, true), one, &width, budget, control).ok()?;
         Some(Margin::of(&all[number], found.outer, angular))
     });
     found.into_iter().flatten().collect()

@@ -183,8 +183,8 @@ fn an_accuracy_with_too_much_room_says_so() {
     run.says(&["what would help: smaller bounds: within them there is to be no second pose"]);
 }
 
-/// Both parts of an accuracy are enclosed however much room the design leaves in either, and its own bounds are said to hold
-/// where `verify` proves them.
+/// Both parts of an accuracy are enclosed however much room the design leaves in either, each with the bound on the other
+/// that is told.
 #[test]
 fn an_accuracy_with_much_room_is_enclosed() {
     let folder = Folder::new();

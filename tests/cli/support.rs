@@ -10,8 +10,8 @@ pub const LONG: &str = "long.toml";
 
 /// A decimal, or a fraction, of an answer.
 pub fn number(value: &serde_json::Value) -> f64 {
-    let (numerator, denominator) =
-        value.as_str().map(|x| x.split_once('/').unwrap_or((x, "1"))).unwrap();
+    let text = value.as_str().unwrap();
+    let (numerator, denominator) = text.split_once('/').unwrap_or((text, "1"));
     numerator.parse::<f64>().unwrap() / denominator.parse::<f64>().unwrap()
 }
 

@@ -271,7 +271,8 @@ pub fn same_extremes(name: &str, claim: &Machine, firmware: &dyn Firmware) -> Ex
     let width = BigRational::new(5.into(), 100_000.into());
     for bounded in Bounded::of(&claim.kernel, 3) {
         let Some(extreme) = Extreme::of(&bounded) else { continue };
-        let enclosed = match enclose(&claim.kernel, &bounded, &width, budget, &mut control) {
+        let enclosed = match enclose((&claim.kernel, false), &bounded, &width, budget, &mut control)
+        {
             Ok(enclosed) if enclosed.width <= &width * BigRational::from_integer(2.into()) => {
                 enclosed
             }

@@ -28,7 +28,7 @@ pub use signed::signed;
 use crate::exact::decimal::{rounded, Toward};
 use crate::exact::Exact;
 use crate::report::{Counterexample, Facts, Outcome, Report};
-use crate::search::solver::enclose::{is_singular, reached, Enclosed, NotEnclosed, Sought};
+use crate::search::solver::enclose::{enclose, is_singular, reached, Enclosed, NotEnclosed};
 use crate::search::solver::extremes::Extreme;
 use crate::search::solver::value::{Bounded, Coordinates};
 use crate::search::solver::{sector, Verification};
@@ -263,7 +263,7 @@ fn ends(
             Ok(vec![End { certified, reached: Some(reached), relative, own_bound: false }])
         }
         Asked::Extreme(extreme) => {
-            Ok(vec![End::from(enclosed((claim, certified), extreme, gap, budget, control)?)])
+            Ok(vec![End::from(enclose((claim, certified), extreme, gap, budget, control)?)])
         }
         Asked::Angle(leg) => {
             let found = sector::enclose(claim, *leg, gap, budget, control)?;
@@ -279,20 +279,6 @@ fn ends(
             Ok(found.certified.into_iter().zip(found.reached).map(end).collect())
         }
     }
-}
-
-/// An extreme of a claim, with less of an accuracy's other part than the claim has where the claim itself is certified: the
-/// pose that is meant is the same then.
-fn enclosed(
-    (claim, certified): (&MachineClaim, bool),
-    extreme: &Extreme,
-    gap: &BigRational,
-    budget: Budget,
-    control: &mut Control<'_>,
-) -> Result<Enclosed, NotEnclosed> {
-    let sought = Sought::new(claim, extreme)?;
-    let sought = if certified { sought.nearer() } else { sought };
-    sought.enclose(gap, budget, control)
 }
 
 /// With what the certificate of the design says where that is more.

@@ -1,12 +1,11 @@
 //! What each tolerance adds to the inaccuracy: the bound on `accuracy` with one tolerance alone.
 
 use super::deviation::{deviation, is_one_of_two};
-use super::enclosed;
 use super::{End, Found};
 use crate::exact::Exact;
 use crate::questions::tolerance::{around, legs_mut, parameters};
 use crate::report::parameter;
-use crate::search::solver::enclose::NotEnclosed;
+use crate::search::solver::enclose::{enclose, NotEnclosed};
 use crate::search::solver::extremes::Extreme;
 use crate::search::{at_once, Budget, Control};
 use num_rational::BigRational;
@@ -140,7 +139,7 @@ pub fn shares(
                 .map(|[End { certified, .. }, _]| certified),
             // What one deviation does is among what all do: with the claim this is certified.
             false => {
-                enclosed((&one, certified), &extreme, gap, budget, control).map(|found| found.outer)
+                enclose((&one, certified), &extreme, gap, budget, control).map(|found| found.outer)
             }
         };
         Ok::<_, NotEnclosed>(Some((name, bound)))

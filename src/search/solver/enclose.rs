@@ -98,12 +98,12 @@ pub fn is_singular(
     }
 }
 
-/// Encloses an extreme: see [`Sought::enclose`].
+/// Encloses an extreme: see [`Sought::enclose`]; of a claim that is certified as [`Sought::nearer`] says.
 ///
 /// # Errors
 /// See [`NotEnclosed`].
 pub fn enclose(
-    claim: &MachineClaim,
+    (claim, is_certified): (&MachineClaim, bool),
     extreme: &Extreme,
     relative: &BigRational,
     budget: Budget,
@@ -112,7 +112,9 @@ pub fn enclose(
     if control.is_cancelled() {
         return Err(NotEnclosed::Cancelled);
     }
-    Sought::new(claim, extreme)?.enclose(relative, budget, control)
+    let sought = Sought::new(claim, extreme)?;
+    let sought = if is_certified { sought.nearer() } else { sought };
+    sought.enclose(relative, budget, control)
 }
 
 /// An extreme of a claim, and where sampling finds it.

@@ -22,7 +22,7 @@ fn all(claim: &MachineClaim, wanted: &[&str], relative: (i64, i64)) -> Vec<(Stri
     let width = BigRational::new(relative.0.into(), relative.1.into());
     let of = |extreme: &Extreme| {
         let name = extreme.file_stem();
-        let found = enclose(claim, extreme, &width, budget, &mut control);
+        let found = enclose((claim, false), extreme, &width, budget, &mut control);
         (name.clone(), found.unwrap_or_else(|error| panic!("{name}: {error}")))
     };
     let every = Extreme::of(claim, legs);
@@ -103,7 +103,7 @@ fn a_looser_bound_goes_on_where_a_tighter_one_stopped() {
     let mut enclosed = |boxes| {
         let budget = Budget { max_boxes: boxes, deadline: None };
         let width = BigRational::new(1.into(), 10_000_000.into());
-        enclose(&claim, psi, &width, budget, control).unwrap()
+        enclose((&claim, false), psi, &width, budget, control).unwrap()
     };
     let most = enclosed(5_000);
     // Short of one box at the first width, it goes on from all others.
