@@ -8,7 +8,7 @@ use crate::files::output;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// How long the work may take to end by itself, in milliseconds.
 static GRACE: AtomicU64 = AtomicU64::new(400);
@@ -38,6 +38,19 @@ pub fn cancelled() -> &'static AtomicBool {
 /// Whether a signal has come.
 pub fn is_cancelled() -> bool {
     CANCEL.load(Ordering::Relaxed)
+}
+
+/// Sets [`cancelled`] at this time, for work that looks at nothing else. Without a thread for it the work
+/// goes on, as without signals.
+pub fn at(deadline: Instant) {
+    let cancel = move || {
+        thread::sleep(deadline.saturating_duration_since(Instant::now()));
+        CANCEL.store(true, Ordering::Relaxed);
+    };
+    match deadline <= Instant::now() {
+        true => cancel(),
+        false => drop(thread::Builder::new().spawn(cancel)),
+    }
 }
 
 /// Gives the work five seconds to end by itself: for a command that still has something to write, and

@@ -1,6 +1,6 @@
 //! `orthocert pave`.
 
-use super::{effort, input, print, progress::Bar, Failure, Format, Status};
+use super::{effort, input, interrupt, print, progress::Bar, Failure, Format, Status};
 use crate::design::{written, Design};
 use crate::exact::Exact;
 use crate::files::digest::Summed;
@@ -34,7 +34,7 @@ pub const MEMORY: u64 = 1024;
 The box is [workspace] min and max of the design, or --box. The region is the set of its points at which all
 requirements hold, for every machine of the tolerance; with --coordinates, the set of their values at which
 all requirements hold for every machine and all values of the others in the workspace. Without --precision and --volume-gap the gap
-that is aimed at is 0.05. An interrupted run leaves PAVING.part, which --resume takes up again: the
+that is aimed at is 0.05. A run that is interrupted, or whose time is up (exit code 3), leaves PAVING.part, which --resume takes up again: the
 paving is the same, byte for byte. So it is for every number of threads. While a run writes
 PAVING.part, another one is refused; nothing is said of bytes that another program put there.")]
 pub struct Arguments {
@@ -70,6 +70,10 @@ pub struct Arguments {
     /// Take up the interrupted run that left PAVING.part; the other flags as they were
     #[arg(long)]
     resume: bool,
+    /// Time after which no further box is tried, and PAVING.part is left: seconds, or a number with ms, s,
+    /// min or h
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    timeout: Option<String>,
     /// Threads [default: one for each core]; the paving does not depend on it
     #[arg(long, value_name = "N",
         value_parser = input::whole(1..=effort::MAX_THREADS), allow_hyphen_values = true)]
@@ -85,6 +89,8 @@ pub struct Arguments {
 /// Runs it.
 pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let started = Instant::now();
+    let timeout = arguments.timeout.as_deref().map(|text| effort::time("--timeout", text)).transpose()?;
+    let deadline = timeout.and_then(|timeout| started.checked_add(timeout));
     let design = input::design(Some(&arguments.design), arguments.quiet)?;
     let claim = &searched(&design.claim, arguments.search_box.as_deref())?;
     let coordinates = chosen(&design, claim, arguments.coordinates.as_deref())?;
@@ -98,10 +104,19 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         not_taken_up(&part, b"{\"format\":\"orthocert-paving/", "paving")?;
     }
     effort::start_threads(arguments.threads)?;
+    deadline.into_iter().for_each(interrupt::at);
     let mut bar = Bar::new("boxes", arguments.quiet);
     let resume = if arguments.resume { Resume::Yes } else { Resume::No };
     let paved = bar.run("", 2, |control| pave(claim, coordinates, &goal, &target, resume, control));
-    let paved = paved.map_err(|error| failure(error, &target))?;
+    let paved = match paved {
+        Ok(paved) => paved,
+        Err(PaveError::Cancelled) => {
+            drop(bar);
+            return cancelled(&part, deadline.is_some_and(|time| time <= Instant::now()));
+        }
+        Err(error @ (PaveError::Claim(_) | PaveError::Resume(..))) => return Err(Failure::input(error)),
+        Err(error) => return Err(Failure::Output(error.to_string())),
+    };
     let elapsed = started.elapsed();
     let found =
         bar.run("components", 1, |_| connected(&target, &paved.sha256, arguments.memory))?;
@@ -128,18 +143,20 @@ pub fn answer(report: &PavingReport, format: Format, quiet: bool) -> Result<Stat
     Ok(if report.reached { Status::Done } else { Status::Undecided })
 }
 
-fn failure(error: PaveError, target: &Path) -> Failure {
-    match error {
-        PaveError::Cancelled => {
-            let part = unfinished(target);
-            if part.exists() {
-                let part = part.shown();
-                print::diagnostic(&format!("{part} holds what is done; --resume takes it up"));
-            }
-            Failure::Interrupted
-        }
-        PaveError::Claim(_) | PaveError::Resume(..) => Failure::Input(error.to_string()),
-        other => Failure::Output(other.to_string()),
+/// Of a run that did not end, says what is left of it.
+fn cancelled(part: &Path, time_is_up: bool) -> Result<Status, Failure> {
+    let why = if time_is_up { "the time was up: " } else { "" };
+    match part.exists() {
+        true => print::diagnostic(&format!(
+            "{why}{} holds what is done; --resume takes it up",
+            part.shown()
+        )),
+        false if time_is_up => print::diagnostic("the time was up before a box was written"),
+        false => {}
+    }
+    match time_is_up {
+        true => Ok(Status::Undecided),
+        false => Err(Failure::Interrupted),
     }
 }
 

@@ -225,6 +225,31 @@ fn a_paving_that_was_interrupted_is_taken_up_to_the_same_bytes() {
 }
 
 #[test]
+fn a_paving_out_of_time_exits_3_and_is_taken_up_to_the_same_bytes() {
+    let folder = Folder::new();
+    folder.write("d.toml", crate::paving::DESIGN);
+    let pave = ["pave", "d.toml", "--volume-gap", "0.01", "--threads", "1"];
+    let out_of_time = |milliseconds: u32, resume: bool| {
+        let timeout = format!("{milliseconds}ms");
+        let resume = if resume { &["--resume"][..] } else { &[] };
+        folder.run(&[&pave[..], &["--timeout", &timeout], resume].concat())
+    };
+    out_of_time(0, false).exits(3).complains(&["the time was up before a box was written"]);
+    assert_eq!(folder.names(), ["d.toml"]);
+    for k in 0.. {
+        let resume = folder.names().contains(&"d.paving.part".to_owned());
+        let run = out_of_time(50 << k, resume);
+        if run.code == Some(0) {
+            break;
+        }
+        run.exits(3).complains(&["the time was up"]);
+    }
+    folder.run(&[&pave[..], &["-o", "whole.paving"]].concat()).exits(0);
+    assert_eq!(folder.read("d.paving"), folder.read("whole.paving"));
+    assert_eq!(folder.names(), ["d.paving", "d.toml", "whole.paving"]);
+}
+
+#[test]
 fn a_paving_that_another_run_is_writing_is_left_alone() {
     const SIGSTOP: u32 = 19;
     const SIGCONT: u32 = 18;
