@@ -120,7 +120,7 @@ fn margins(
     let found = effort.bar().at_once(&names, 0, |number, turns, control| {
         let (one, budget) = (&all[number], budget.shared(turns));
         let found = enclose((claim, true), one, &width, budget, control).ok()?;
-        Some(Margin::of(&all[number], found.outer, angular))
+        one.is_margin(claim, &found.outer).then(|| Margin::of(one, found.outer, angular))
     });
     found.into_iter().flatten().collect()
 }

@@ -481,13 +481,12 @@ impl<'a> Facts<'a> {
                 Stop::Exhausted | Stop::Hopeless => "the test does not hold",
                 Stop::Boxes | Stop::Time | Stop::Cancelled => "not shown within the budget",
             };
-            let count = boxes().count();
             Some(OpenRequirement {
                 obligation: rule,
                 requirement,
-                boxes: count,
+                boxes: boxes().count(),
                 share: self.of_workspace(boxes().map(share).fold(0.0, sum_above)),
-                reasons: vec![(reason.to_owned(), count)],
+                reason,
                 help: self.help((quality, worst), undecided.stop, margin),
             })
         };
@@ -515,7 +514,7 @@ impl<'a> Facts<'a> {
         (quality, worst): (Quality, &[Worst]),
         stop: Stop,
         margin: Option<f64>,
-    ) -> String {
+    ) -> &'static str {
         let is_accuracy = |quality| {
             self.bounded(quality).is_some_and(|own| own.requirement.quantity == "accuracy")
         };
@@ -545,7 +544,6 @@ impl<'a> Facts<'a> {
                 "a larger budget: --max-boxes, --timeout"
             }
         }
-        .to_owned()
     }
 }
 

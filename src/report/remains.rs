@@ -63,10 +63,10 @@ pub struct OpenRequirement {
     pub boxes: usize,
     /// Their share of the workspace, rounded up.
     pub share: f64,
-    /// Why the rules did not close them, and how many; most frequent first.
-    pub reasons: Vec<(String, usize)>,
+    /// Why it is open there.
+    pub reason: &'static str,
     /// What would help.
-    pub help: String,
+    pub help: &'static str,
 }
 
 /// Why a search that tried so many boxes ended without an answer.

@@ -2,6 +2,7 @@
 
 use super::kernel::{DETERMINANT, RADICAND};
 use super::place::{angle_of, in_degrees, placed, point_text, pose_text, turn_text, FreeParameter};
+use super::remains::OpenRequirement;
 use super::{
     machine_of_witness, CertificateFile, Counterexample, EarlierFile, Margin, Outcome,
     PostulateReport, Remains, Report, Row, Size,
@@ -400,15 +401,27 @@ fn describe_remains(out: &mut String, remains: &Remains, coordinates: &Coordinat
         let how = if verbose { "" } else { ": --verbose" };
         let _ = writeln!(out, "    and {} smaller ones{how}", grouped(hidden as u64));
     }
-    for open in &remains.open {
+    let alike = |a: &OpenRequirement, b: &OpenRequirement| (a.reason, a.help) == (b.reason, b.help);
+    for open in remains.open.chunk_by(alike) {
         out.push('\n');
-        wrap(out, &format!("{}: {}", open.obligation, open.requirement), 2);
-        let share = percent(open.share);
-        wrap(out, &format!("open on {}, {share}", boxes(open.boxes)), 4);
-        for (reason, count) in &open.reasons {
-            wrap(out, &format!("{} of them: {reason}", grouped(*count as u64)), 4);
-        }
-        wrap(out, &format!("what would help: {}", open.help), 4);
+        let head = ["requirement", "open on", "of the workspace"].map(str::to_owned);
+        let cells = |own: &OpenRequirement| {
+            let name = format!("{}: {}", own.obligation, own.requirement);
+            [name, boxes(own.boxes), percent(own.share)]
+        };
+        columns(out, &[head].into_iter().chain(open.iter().map(cells)).collect::<Vec<_>>());
+        wrap(out, open[0].reason, 4);
+        wrap(out, &format!("what would help: {}", open[0].help), 4);
+    }
+}
+
+/// Lines of which each column but the last is as wide as its widest.
+fn columns<const N: usize>(out: &mut String, rows: &[[String; N]]) {
+    let width = |k: usize| rows.iter().map(|row| row[k].chars().count()).max().unwrap_or(0);
+    let widths: [usize; N] = std::array::from_fn(width);
+    for row in rows {
+        let cells = row.iter().zip(widths).map(|(cell, width)| format!("  {cell:width$}"));
+        let _ = writeln!(out, "{}", cells.collect::<String>().trim_end());
     }
 }
 

@@ -187,6 +187,14 @@ impl Extreme {
         all.reduce(if self.is_greatest() { BigRational::min } else { BigRational::max })
     }
 
+    /// Whether a bound says more than what the claim itself demands.
+    pub fn is_margin(&self, claim: &MachineClaim, bound: &BigRational) -> bool {
+        self.required_bound(claim).is_none_or(|own| match self.is_greatest() {
+            true => *bound < own,
+            false => *bound > own,
+        })
+    }
+
     /// A bound with which the claim is well formed.
     pub(super) fn probe(&self, claim: &MachineClaim) -> Option<MachineClaim> {
         let two = BigRational::from_integer(2.into());
