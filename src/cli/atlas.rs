@@ -1,17 +1,14 @@
 //! `orthocert atlas`, and what it has in common with a merge of parts of an atlas.
 
 use super::effort::{time, Work};
-use super::pave::not_taken_up;
-use super::{certify, interrupt, print, Failure, Format, Status};
+use super::{certify, input, interrupt, print, Failure, Status};
 use crate::cli::progress::Bar;
 use crate::design::{AtlasDesign, Objective};
 use crate::exact::decimal::{counted, grouped};
 use crate::exact::Exact;
 use crate::files::digest::sha256;
 use crate::files::folder::{self, FolderError, SUMS};
-use crate::files::output;
 use crate::files::read::{beside, Named};
-use crate::jobs::batch::plan::identity;
 use crate::questions::atlas::{
     self, Bound, Growing, Kept, KeptError, Stopped, Top, Widest, FORMAT,
 };
@@ -22,7 +19,7 @@ use crate::report::atlas::{
 use crate::report::map::{self, Point};
 use crate::report::page::theorem::theorem;
 use crate::report::CertificateFile;
-use crate::search::paving::unfinished as part_of;
+use crate::search::paving::unfinished;
 use crate::search::solver::{verify, Answer};
 use crate::search::{Budget, Control};
 use orthocert_checker::certificate::Certificate;
@@ -84,7 +81,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let grown = map(&design, &mut kept, deadline, arguments.work.quiet);
     let cells = match grown {
         Ok(top) => atlas::assemble(top, Vec::new()).ok_or(Failure::Defect)?,
-        Err(stopped) => return unfinished(stopped, &kept, &folder),
+        Err(stopped) => return left(stopped, &kept, &folder),
     };
     let name = arguments.atlas.to_string_lossy().into_owned();
     let report =
@@ -99,17 +96,12 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
 
 /// Where what is decided is kept: that of an earlier run, if it is asked for.
 fn kept(design: &AtlasDesign, folder: &Path, arguments: &Arguments) -> Result<Kept, Failure> {
-    let part = part_of(folder);
-    if identity(&part) == identity(&arguments.atlas) {
-        let part = part.shown();
-        return Err(Failure::Input(format!(
-            "--output: {part}, where what is decided is kept, is the atlas itself; accepted: another folder"
-        )));
-    }
+    let part = unfinished(folder);
+    input::apart(&part, [&arguments.atlas])?;
     let found = match arguments.resume {
         true => Kept::take_up(&part, design),
         false => {
-            not_taken_up(&part, FORMAT.as_bytes(), "map")?;
+            input::not_taken_up(&part, FORMAT.as_bytes(), "map")?;
             Kept::begin(&part, design)
         }
     };
@@ -120,9 +112,9 @@ fn kept(design: &AtlasDesign, folder: &Path, arguments: &Arguments) -> Result<Ke
 }
 
 /// What a run that did not end leaves.
-fn unfinished(stopped: Stopped, kept: &Kept, folder: &Path) -> Result<Status, Failure> {
+fn left(stopped: Stopped, kept: &Kept, folder: &Path) -> Result<Status, Failure> {
     let (cells, share) = (grouped(kept.cells as u64), 100.0 * kept.share);
-    let part = part_of(folder);
+    let part = unfinished(folder);
     let status = match stopped.clone() {
         Stopped::Cancelled => Err(Failure::Interrupted),
         Stopped::Time => Ok(Status::Undecided),
@@ -152,11 +144,6 @@ impl From<FolderError> for Failure {
             error => Failure::Output(error.to_string()),
         }
     }
-}
-
-/// The folder, made if it is not there.
-pub fn made(folder: &Path) -> Result<(), Failure> {
-    Ok(output::folder(folder, folder).map(drop)?)
 }
 
 /// The files of a map, which are written together.
@@ -254,11 +241,10 @@ pub fn publish(
 
 /// Prints the report.
 pub fn answer(report: &AtlasReport, work: &Work) -> Result<Status, Failure> {
-    match work.format {
-        Format::Json => print::json(report)?,
-        Format::Text if work.quiet => print::answer(&(report.headline() + "\n"))?,
-        Format::Text => print::answer(&report.text())?,
-    }
+    print::told(work.format, report, || match work.quiet {
+        true => report.headline() + "\n",
+        false => report.text(),
+    })?;
     let decided = report.certified.cells + report.refuted.cells;
     Ok(if decided > 0 { Status::Done } else { Status::Undecided })
 }

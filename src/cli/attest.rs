@@ -1,12 +1,10 @@
 //! `orthocert attest`.
 
 use super::check::examine;
-use super::{input, print, Failure, Status};
+use super::{input, print, Failure, Format, Status};
 use crate::design::Design;
 use crate::files::output;
-use crate::files::read::Named;
 use crate::jobs::attestation::{statement, Evidence};
-use crate::jobs::batch::plan::identity;
 use crate::report::escape;
 use std::path::{Path, PathBuf};
 
@@ -29,12 +27,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let Arguments { certificate: path, design: design_path, output } = arguments;
     if let Some(output) = output {
         output::probe(output)?;
-        if [path, design_path].iter().any(|input| identity(input) == identity(output)) {
-            return Err(Failure::Input(format!(
-                "--output: {} is what the statement is about; accepted: another path",
-                output.shown()
-            )));
-        }
+        input::apart(output, [path, design_path])?;
     }
     // What is hashed is what is read: the bytes are taken once.
     let design_bytes = Design::bytes(design_path).map_err(Failure::input)?;
@@ -43,10 +36,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let certificate_bytes = input::certificate(path)?;
     let (certificate, accepted) = match examine(&certificate_bytes, Some(&design)) {
         Ok(examined) => examined,
-        Err(reason) => {
-            print::diagnostic(&format!("{}: REJECTED: {reason}", path.shown()));
-            return Ok(Status::Rejected);
-        }
+        Err(reason) => return print::rejected(Format::Text, path, &reason, ""),
     };
     let statement = statement(&Evidence {
         design: &design,

@@ -5,8 +5,8 @@ use super::{
 };
 use crate::design::{Design, ReadError};
 use crate::files::output;
-use crate::files::read::Named;
-use crate::jobs::batch::plan::{identity, plan, Planned};
+use crate::files::read::{identity, Named};
+use crate::jobs::batch::plan::{plan, Planned};
 use crate::jobs::batch::run::{run as run_jobs, Outcome};
 use crate::jobs::batch::{junit::junit, sarif::sarif, summary, Batch, Ending, Entry};
 use crate::report::escape;

@@ -1,6 +1,7 @@
 //! From an answer to a certificate on the disk: what all commands that prove have in common.
 
 use super::{input, Failure};
+use crate::files::read::Named;
 use crate::files::{digest, output};
 pub use crate::questions::decide::as_written;
 use crate::report::{CertificateFile, EarlierFile};
@@ -42,6 +43,16 @@ pub fn store(folder: Option<&Path>, path: &Path, text: &str) -> Result<Certifica
     }
     let sha256 = digest::sha256(text.as_bytes());
     Ok(CertificateFile { path: path.to_string_lossy().into_owned(), bytes: text.len(), sha256 })
+}
+
+/// Writes a certificate that reads back as the very one that was accepted.
+pub fn write(
+    folder: Option<&Path>,
+    path: &Path,
+    certificate: &Certificate,
+) -> Result<CertificateFile, Failure> {
+    let unwritable = |why| Failure::Output(format!("{}: cannot be written: {why}", path.shown()));
+    store(folder, path, &as_written(certificate).map_err(unwritable)?)
 }
 
 /// Why files of an answer could not be written: told after the answer, which is not lost with them.

@@ -72,22 +72,15 @@ pub struct Arguments {
 
 /// The answer for scripts.
 #[derive(Serialize)]
-#[serde(untagged)]
-enum Answer<'a> {
-    Accepted {
-        accepted: bool,
-        verdict: Verdict,
-        statement: &'a str,
-        #[serde(skip_serializing_if = "Option::is_none")]
-        formulas: Option<&'a str>,
-        #[serde(skip_serializing_if = "Option::is_none")]
-        proof: Option<Size>,
-        claim: &'a Claim,
-    },
-    Rejected {
-        accepted: bool,
-        reason: &'a str,
-    },
+struct Answer<'a> {
+    accepted: bool,
+    verdict: Verdict,
+    statement: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    formulas: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    proof: Option<Size>,
+    claim: &'a Claim,
 }
 
 /// Runs it.
@@ -241,15 +234,8 @@ fn random() -> Result<u64, Failure> {
 }
 
 fn reject(arguments: &Arguments, reason: &str) -> Result<Status, Failure> {
-    match arguments.format {
-        Format::Json => print::json(&Answer::Rejected { accepted: false, reason })?,
-        Format::Text => {
-            let path = &arguments.certificate;
-            let hint = input::design_hint(path);
-            print::diagnostic(&format!("{}: REJECTED: {reason}{hint}", path.shown()))
-        }
-    }
-    Ok(Status::Rejected)
+    let path = &arguments.certificate;
+    print::rejected(arguments.format, path, &reason, &input::design_hint(path))
 }
 
 /// Checks all of a folder.
@@ -325,7 +311,7 @@ fn accept(
         Format::Json => {
             let proof = Size::accepted(&certificate.proof, &accepted.size);
             let (accepted, statement, claim) = (true, statement.as_str(), &certificate.claim);
-            print::json(&Answer::Accepted { accepted, verdict, statement, formulas, proof, claim })
+            print::json(&Answer { accepted, verdict, statement, formulas, proof, claim })
         }
     }
 }

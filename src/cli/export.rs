@@ -1,9 +1,9 @@
 //! `orthocert export`.
 
-use super::{input, interrupt, print, Failure, Status};
+use super::input::{self, Begun};
+use super::{interrupt, print, Failure, Format, Status};
 use crate::exact::decimal::grouped;
 use crate::files::digest::Summed;
-use crate::files::open::reader;
 use crate::files::output;
 use crate::files::read::Named;
 use crate::report::export;
@@ -12,8 +12,7 @@ use clap::Subcommand;
 use orthocert_checker::read;
 use orthocert_kernel::paving::{is_paving, Reader};
 use std::fmt::Display;
-use std::fs::File;
-use std::io::{BufRead, BufReader, Take};
+use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
 /// Its flags.
@@ -77,7 +76,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
 
 fn rocq(path: &Path, output: Option<&Path>) -> Result<Status, Failure> {
     if let Some(output) = output {
-        input::apart(output, &[path.to_owned()])?;
+        input::apart(output, [path])?;
         output::probe(output)?;
     }
     let bytes = input::certificate(path)?;
@@ -91,10 +90,7 @@ fn rocq(path: &Path, output: Option<&Path>) -> Result<Status, Failure> {
     }
     let certificate = match read(&bytes) {
         Ok(certificate) => certificate,
-        Err(reason) => {
-            print::diagnostic(&format!("{}: REJECTED: {reason}", path.shown()));
-            return Ok(Status::Rejected);
-        }
+        Err(reason) => return print::rejected(Format::Text, path, &reason, ""),
     };
     let text = export::rocq::rocq(&certificate).map_err(|error| refused(&error))?;
     match output {
@@ -109,8 +105,15 @@ fn mesh(
     output: &Path,
     file: fn(&Surface) -> Result<Vec<u8>, SurfaceError>,
 ) -> Result<Status, Failure> {
-    let mut paving = opened(path)?;
-    input::apart(output, &[path.to_owned()])?;
+    let begun = Begun::new(path)?;
+    if !is_paving(&begun.start) {
+        let path = path.shown();
+        return Err(Failure::Input(format!(
+            "{path}: cannot be read: it does not begin like a paving; accepted: a file that `pave` writes"
+        )));
+    }
+    let mut paving = BufReader::new(Summed::new(begun.whole()));
+    input::apart(output, [path])?;
     output::probe(output)?;
     let found = Reader::new(&mut paving)
         .map_err(SurfaceError::from)
@@ -119,9 +122,8 @@ fn mesh(
     let (bytes, surface) = match found {
         Ok(found) => found,
         Err(SurfaceError::Cancelled) => return Err(Failure::Interrupted),
-        Err(error @ SurfaceError::Rejected(_)) => {
-            print::diagnostic(&format!("{}: {error}", path.shown()));
-            return Ok(Status::Rejected);
+        Err(SurfaceError::Rejected(reason)) => {
+            return print::rejected(Format::Text, path, &reason, "")
         }
         Err(error) => {
             return Err(Failure::Input(format!("{}: not exported: {error}", path.shown())))
@@ -140,23 +142,4 @@ fn mesh(
         path.shown(),
     ))?;
     Ok(Status::Done)
-}
-
-/// A file that begins like a paving.
-fn opened(path: &Path) -> Result<BufReader<Summed<BufReader<Take<File>>>>, Failure> {
-    let unreadable =
-        |reason: &str| Failure::Input(format!("{}: cannot be read: {reason}", path.shown()));
-    if path.is_dir() {
-        return Err(unreadable("it is a folder; accepted: a paving"));
-    }
-    let mut reader = reader(path)
-        .map(Summed::new)
-        .map(BufReader::new)
-        .map_err(|error| unreadable(&error.to_string()))?;
-    let start = reader.fill_buf().map_err(|error| unreadable(&error.to_string()))?;
-    if is_paving(start) {
-        Ok(reader)
-    } else {
-        Err(unreadable("it does not begin like a paving; accepted: a file that `pave` writes"))
-    }
 }

@@ -4,15 +4,15 @@ use super::{print, Failure};
 use crate::design::{may_be_tolerance, Design};
 use crate::exact::Exact;
 use crate::files::open::reader;
-use crate::files::output;
-use crate::files::read::{meant, read, Named};
+use crate::files::output::{self, OutputError};
+use crate::files::read::{identity, meant, Named};
 use num_rational::BigRational;
 use orthocert_checker::certificate::MOST_BYTES;
 use std::cmp::Ordering;
 use std::fs::{self, File};
 use std::io::{self, BufReader, Read, Take};
 use std::ops::RangeInclusive;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Most digits of a literal on the command line, as in design files.
 const MAX_DIGITS: usize = 1000;
@@ -38,12 +38,7 @@ pub fn tell_notes(design: &Design, path: Option<&Path>, quiet: bool) {
 
 /// The bytes of a certificate, one more than are admissible at most: the checker refuses those.
 pub fn certificate(path: &Path) -> Result<Vec<u8>, Failure> {
-    let unreadable =
-        |reason: String| Failure::Input(format!("{}: cannot be read: {reason}", path.shown()));
-    if path.is_dir() {
-        return Err(unreadable("it is a folder; accepted: a certificate (a JSON file)".to_owned()));
-    }
-    read(path, MOST_BYTES as u64).map_err(|error| unreadable(error.to_string()))
+    Ok(Begun::new(path)?.start)
 }
 
 /// A file of which the beginning was read, as much as a certificate may have and a byte more; what
@@ -141,13 +136,38 @@ pub fn whole(
 }
 
 /// Refuses an output that is one of the files that are read: it would be lost.
-pub fn apart(output: &Path, inputs: &[PathBuf]) -> Result<(), Failure> {
-    let Ok(found) = fs::canonicalize(output) else { return Ok(()) };
-    let is_read = |input: &PathBuf| fs::canonicalize(input).is_ok_and(|input| input == found);
-    if inputs.iter().any(is_read) {
+pub fn apart<P: AsRef<Path>>(
+    output: &Path,
+    inputs: impl IntoIterator<Item = P>,
+) -> Result<(), Failure> {
+    let own = identity(output);
+    if inputs.into_iter().any(|input| identity(input.as_ref()) == own) {
         let path = output.shown();
         let refused = format!("--output: {path} is a file that is read; accepted: another path");
         return Err(Failure::Input(refused));
+    }
+    Ok(())
+}
+
+/// Says so where an earlier run left an unfinished paving or map, which begins like this; anything else stays.
+pub fn not_taken_up(part: &Path, begins: &[u8], what: &str) -> Result<(), Failure> {
+    if fs::symlink_metadata(part).is_err() {
+        return Ok(());
+    }
+    let mut start = Vec::new();
+    // Where another run is writing it, that is all there is to say.
+    let read = output::open_locked(part, false)?.take(begins.len() as u64).read_to_end(&mut start);
+    read.map_err(|error| Failure::from(OutputError::Io(part.to_owned(), error)))?;
+    let part = part.shown();
+    if !begins.starts_with(&start) {
+        return Err(Failure::Input(format!(
+            "--output: {part} is in the way, which is no unfinished {what}; accepted: another path"
+        )));
+    }
+    if !start.is_empty() {
+        print::diagnostic(&format!(
+            "{part}, which another run left, is not taken up: --resume would"
+        ));
     }
     Ok(())
 }
@@ -162,7 +182,7 @@ pub fn probe_in(folder: &Path, name: &str, design: Option<&Path>) -> Result<(), 
 fn apart_in(folder: &Path, design: &Path) -> Result<(), Failure> {
     let is_certificate = design.to_string_lossy().ends_with(".cert.json");
     match design.file_name().filter(|_| is_certificate) {
-        Some(name) => apart(&folder.join(name), &[design.to_owned()]),
+        Some(name) => apart(&folder.join(name), [design]),
         None => Ok(()),
     }
 }

@@ -1,23 +1,23 @@
 //! `orthocert largest-cube`.
 
 use super::certify::{self, Unwritten};
-use super::{effort::Effort, input, interrupt, print, size, Failure, Format, Status};
+use super::{effort::Effort, ends, input, interrupt, print, Failure, Status};
 use crate::design::{written, Design};
-use crate::exact::decimal::{grouped, readable};
+use crate::exact::decimal::readable;
 use crate::exact::Exact;
 use crate::files::output;
 use crate::files::read::named_after;
 use crate::questions::largest_cube::{cube_of_side, largest_cube, Bracket};
-use crate::report::text::{duration, labelled, verbatim};
+use crate::report::text::{duration, file_line, labelled};
 use crate::report::{counterexample, CertificateFile, Counterexample};
 use num_rational::BigRational;
 use num_traits::{FromPrimitive, ToPrimitive};
-use orthocert_checker::certificate::{Certificate, Verdict};
+use orthocert_checker::certificate::Verdict;
 use orthocert_kernel::claim::{MachineClaim, Workspace};
 use orthocert_kernel::number::Expression;
 use serde::Serialize;
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 /// Why there is no upper bound where cubes a million times as large as the box of the centres seem to fit.
@@ -94,7 +94,7 @@ struct Answer {
 pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let started = Instant::now();
     let effort = &arguments.effort;
-    let gap = size::gap(&arguments.gap, ["1e-9", "0.5"])?;
+    let gap = ends::gap(&arguments.gap, ["1e-9", "0.5"])?;
     let side = arguments.side.as_deref().map(side).transpose()?;
     let budget = effort.budget(started)?;
     let design = input::design(Some(&arguments.design), effort.quiet)?;
@@ -111,7 +111,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         Some(side) => cube_of_side(claim, side, budget, control),
         None => largest_cube(claim, gap, budget, control),
     });
-    let bracket = found.map_err(|error| size::explain(error, &design))?;
+    let bracket = found.map_err(|error| ends::explain(error, &design))?;
     let (mut certificates, mut unwritten) = (Vec::new(), Unwritten::default());
     let inside = bracket.inside.as_ref().map(|inside| &inside.certificate);
     let beyond = bracket.too_large.as_ref().or(bracket.refuted_here.as_ref());
@@ -121,20 +121,20 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let too_large = beyond.map(|too_large| &too_large.certificate);
     for (certificate, target) in [inside, too_large].into_iter().zip(&targets) {
         if let Some(certificate) = certificate {
-            let stored = stored(certificate, arguments.output.as_deref(), target);
-            certificates.extend(unwritten.unless(stored));
+            let written = certify::write(arguments.output.as_deref(), target, certificate);
+            certificates.extend(unwritten.unless(written));
         }
     }
     let found = reached(&bracket);
     let missed = match &side {
         _ if interrupt::is_cancelled() => None,
         None if found.is_some_and(|found| found <= gap) => {
-            bracket.is_short.then_some(size::NOT_BEST)
+            bracket.is_short.then_some(ends::NOT_BEST)
         }
         None if bracket.endless => Some(ENDLESS),
         Some(_) if bracket.inside.is_some() || bracket.too_large.is_some() => None,
         Some(_) if turns && !bracket.out_of_time => Some(ONE_CENTRE),
-        _ => Some(size::missed(bracket.out_of_time)),
+        _ => Some(ends::missed(bracket.out_of_time)),
     };
     let answer = Answer {
         title: design.title.clone(),
@@ -154,10 +154,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         interrupted: interrupt::is_cancelled(),
         seconds: started.elapsed().as_secs_f64(),
     };
-    match effort.format {
-        Format::Json => print::json(&answer)?,
-        Format::Text => print::answer(&text(&answer, effort.quiet))?,
-    }
+    print::told(effort.format, &answer, || text(&answer, effort.quiet))?;
     let status = match (&answer.min, &answer.max, side) {
         (Some(_), _, Some(_)) => Status::Decided(Verdict::Certified),
         (_, Some(_), Some(_)) => Status::Decided(Verdict::Refuted),
@@ -181,17 +178,6 @@ fn boxed(design: &Design) -> Result<&MachineClaim, Failure> {
     let accepted =
         "of largest-cube, a box of three coordinates, min and max, in which the centres are";
     Err(Failure::Input(design.refused(key, found, accepted)))
-}
-
-fn stored(
-    certificate: &Certificate,
-    folder: Option<&Path>,
-    target: &Path,
-) -> Result<CertificateFile, Failure> {
-    let text = certificate
-        .to_text()
-        .map_err(|error| Failure::Output(format!("the certificate cannot be written: {error}")))?;
-    certify::store(folder, target, &text)
 }
 
 /// `(max - min) / min`, where both are there.
@@ -246,14 +232,12 @@ fn text(answer: &Answer, quiet: bool) -> String {
         labelled(&mut out, "refuted", &text);
     }
     if let Some(gap) = answer.gap.and_then(BigRational::from_f64) {
-        labelled(&mut out, "gap", &size::gap_text(&gap));
+        labelled(&mut out, "gap", &ends::gap_text(&gap));
     }
     if let Some(why) = answer.missed {
         labelled(&mut out, "gap missed", why);
     }
-    for CertificateFile { path, bytes, .. } in &answer.certificates {
-        verbatim(&mut out, "certificate", &format!("{path} ({} bytes)", grouped(*bytes as u64)));
-    }
+    answer.certificates.iter().for_each(|file| file_line(&mut out, file));
     let _ = writeln!(out, "\n  {}", duration(answer.seconds));
     out
 }

@@ -1,10 +1,10 @@
 //! `orthocert limit`.
 
 use super::certify::{self, Unwritten};
-use super::size::{explain, gap_text};
-use super::{effort::Effort, input, interrupt, print, Failure, Format, Status};
+use super::ends::{explain, gap_text};
+use super::{effort::Effort, input, interrupt, print, Failure, Status};
 use crate::design::{text_of, Design, Variable};
-use crate::exact::decimal::{exact, grouped, significant};
+use crate::exact::decimal::{exact, significant};
 use crate::exact::Exact;
 use crate::files::output;
 use crate::files::read::named_after;
@@ -13,6 +13,7 @@ use crate::questions::limit::Side;
 use crate::questions::limit::{
     limits, Decided, DesignFamily, Direction, Family, Limit, Place, Question,
 };
+use crate::report::text::{file_line, labelled};
 use crate::report::{machine_of_witness, CertificateFile, Outcome};
 use crate::search::Budget;
 use num_rational::BigRational;
@@ -27,10 +28,6 @@ use std::time::Instant;
 const BOXES: (usize, usize) = (20_000, 4);
 /// Fractional bits in which an irrational own value is compared with others.
 const OWN_BITS: u32 = 192;
-/// Columns of a line.
-const WIDTH: usize = 80;
-/// Columns of its label.
-const LABEL: usize = 16;
 
 /// Its flags.
 #[derive(Debug, clap::Args)]
@@ -149,7 +146,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let variable = Variable::find(text, &name, &arguments.key).map_err(Failure::input)?;
     for (side, verdict) in ENDS {
         let target = arguments.target(side, verdict);
-        input::apart(&target, std::slice::from_ref(&arguments.design))?;
+        input::apart(&target, [&arguments.design])?;
         output::probe(&target)?;
     }
     effort.start_threads()?;
@@ -198,10 +195,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         interrupted: interrupt::is_cancelled(),
         seconds: started.elapsed().as_secs_f64(),
     };
-    match effort.format {
-        Format::Json => print::json(&answer)?,
-        Format::Text => print::answer(&words(&answer, effort.quiet))?,
-    }
+    print::told(effort.format, &answer, || words(&answer, effort.quiet))?;
     let status = if is_complete(&answer) { Status::Done } else { Status::Undecided };
     unwritten.told()?;
     interrupt::unless_cancelled(status)
@@ -261,9 +255,8 @@ fn row(
     let mut stored = |end: &Option<Decided<Box<Certificate>>>| -> Result<Option<Value>, Failure> {
         let Some(end) = end else { return Ok(None) };
         let target = arguments.target(side, &end.verdict.to_string());
-        let text = certify::as_written(&end.proof).map_err(|_| Failure::Defect)?;
-        let stored = certify::store(arguments.output.as_deref(), &target, &text);
-        let certificate = unwritten.unless(stored);
+        let written = certify::write(arguments.output.as_deref(), &target, &end.proof);
+        let certificate = unwritten.unless(written);
         Ok(Some(Value { value: number(&end.value), certificate }))
     };
     Ok(Row {
@@ -298,7 +291,7 @@ fn words(answer: &Answer, quiet: bool) -> String {
         let tolerance = answer.tolerance.as_ref().map_or(String::new(), |t| format!(" ± {t}"));
         let (key, design) = (Shown(&answer.key), Shown(&answer.design));
         let _ = writeln!(out, "{key} of {design}\n");
-        line(&mut out, "own value", &format!("{own}{tolerance}, {verdict}"));
+        labelled(&mut out, "own value", &format!("{own}{tolerance}, {verdict}"));
     }
     // What was looked for, before where there is none.
     let (found, none): (Vec<&Row>, Vec<&Row>) =
@@ -347,28 +340,28 @@ fn limit(out: &mut String, row: &Row) {
     let beyond = if row.searched == "up" { "above" } else { "below" };
     match (&row.certified, &row.refuted) {
         (Some(certified), Some(refuted)) => {
-            line(out, "certified", &exact(&certified.value));
-            line(out, "refuted", &exact(&refuted.value));
+            labelled(out, "certified", &exact(&certified.value));
+            labelled(out, "refuted", &exact(&refuted.value));
         }
         (Some(end), None) => {
-            line(
+            labelled(
                 out,
                 "certified",
                 &format!("{}; no refuted value was found {beyond} it", exact(&end.value)),
             );
         }
         (None, Some(end)) => {
-            line(
+            labelled(
                 out,
                 "refuted",
                 &format!("{}; no certified value was found {beyond} it", exact(&end.value)),
             );
         }
-        (None, None) => line(out, "", "no value was decided"),
+        (None, None) => labelled(out, "", "no value was decided"),
     }
     if let Some(gap) = &row.gap {
         let missed = if row.gap_reached { "" } else { ", more than asked for" };
-        line(out, "gap", &format!("{gap}{missed}"));
+        labelled(out, "gap", &format!("{gap}{missed}"));
     }
     // Without a gap, where even the value nearest to a certified one fails, if there is any.
     if let Some(place) =
@@ -377,55 +370,35 @@ fn limit(out: &mut String, row: &Row) {
         self::place(out, place);
     }
     match &row.undecided {
-        Some([one, other]) if one == other => line(out, "undecided", &exact(one)),
+        Some([one, other]) if one == other => labelled(out, "undecided", &exact(one)),
         Some([one, other]) => {
-            line(out, "undecided", &format!("{} to {}", exact(one), exact(other)));
+            labelled(out, "undecided", &format!("{} to {}", exact(one), exact(other)));
         }
         None => {}
     }
     if let Some(end) = &row.ends {
-        line(out, "not a design", &format!("{}: {}", exact(&end.value), end.reason));
+        labelled(out, "not a design", &format!("{}: {}", exact(&end.value), end.reason));
     }
     if row.out_of_time {
         let why = if interrupt::is_cancelled() { "interrupted" } else { "the time was up" };
-        line(out, "", why);
+        labelled(out, "", why);
     }
     let values = [&row.certified, &row.refuted].into_iter().flatten();
-    for certificate in values.filter_map(|value| value.certificate.as_ref()) {
-        let bytes = grouped(certificate.bytes as u64);
-        line(out, "certificate", &format!("{} ({bytes} bytes)", Shown(&certificate.path)));
-    }
+    values.filter_map(|value| value.certificate.as_ref()).for_each(|file| file_line(out, file));
 }
 
 /// The requirement that limits, and where.
 fn place(out: &mut String, place: &Place) {
-    line(out, "limited by", &place.limit);
+    labelled(out, "limited by", &place.limit);
     if let Some(value) = &place.value {
-        line(out, "value there", value);
+        labelled(out, "value there", value);
     }
     match &place.pose {
-        Some(pose) => line(out, "at", pose),
-        None => line(out, "at", &format!("({})", place.point.join(", "))),
+        Some(pose) => labelled(out, "at", pose),
+        None => labelled(out, "at", &format!("({})", place.point.join(", "))),
     }
     if !place.other_point.is_empty() {
-        line(out, "and at", &format!("({})", place.other_point.join(", ")));
+        labelled(out, "and at", &format!("({})", place.other_point.join(", ")));
     }
     machine_of_witness(out, &place.settings, false);
-}
-
-/// A label and what it says, in as many lines as that takes.
-fn line(out: &mut String, label: &str, text: &str) {
-    let mut column = 0;
-    let _ = write!(out, "  {label:<LABEL$}");
-    for word in text.split(' ') {
-        let width = word.chars().count();
-        if column > 0 && 2 + LABEL + column + 1 + width > WIDTH {
-            let _ = write!(out, "\n  {:LABEL$}", "");
-            column = 0;
-        }
-        let blank = if column > 0 { " " } else { "" };
-        let _ = write!(out, "{blank}{word}");
-        column += blank.len() + width;
-    }
-    out.push('\n');
 }

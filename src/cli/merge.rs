@@ -1,14 +1,12 @@
 //! `orthocert merge`.
 
 use super::effort::Work;
-use super::{atlas, certify, interrupt, pave, print, Failure, Format, Status};
+use super::{atlas, certify, interrupt, pave, print, Failure, Status};
 use crate::exact::decimal::counted;
 use crate::files::output;
-use crate::files::read::Named;
-use crate::jobs::batch::plan::identity;
+use crate::files::read::{identity, Named};
 use crate::jobs::shard::{self, MergeError, Pave, Stretches, Task, Verify, Whole};
 use crate::report::paving::PavingReport;
-use crate::report::text;
 use crate::search::paving::PaveError;
 use crate::search::solver::{concluded, Answer, Undecided};
 use orthocert_kernel::certificate::{Node, MOST_NODES};
@@ -30,26 +28,12 @@ pub struct Arguments {
     work: Work,
 }
 
-/// The answer for scripts where the results prove nothing.
-#[derive(Serialize)]
-struct Refused<'a> {
-    accepted: bool,
-    reason: &'a str,
-}
-
 /// Runs it.
 pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     match merged(arguments) {
         Err(Failure::Rejected(reason)) => {
             let reason = format!("nothing was merged: {reason}");
-            match arguments.work.format {
-                Format::Json => print::json(&Refused { accepted: false, reason: &reason })?,
-                Format::Text => {
-                    let folder = arguments.folder.shown();
-                    print::diagnostic(&format!("{folder}: REJECTED: {reason}"));
-                }
-            }
-            Ok(Status::Rejected)
+            print::rejected(arguments.work.format, &arguments.folder, &reason, "")
         }
         other => other,
     }
@@ -57,7 +41,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
 
 fn merged(arguments: &Arguments) -> Result<Status, Failure> {
     let started = Instant::now();
-    apart(&arguments.folder, &arguments.output)?;
+    outside(&arguments.folder, &arguments.output)?;
     arguments.work.start_threads()?;
     let merged = shard::merge(&arguments.folder).map_err(|error| match error {
         MergeError::Missing(_) => Failure::Output(error.to_string()),
@@ -81,7 +65,7 @@ fn merged(arguments: &Arguments) -> Result<Status, Failure> {
 }
 
 /// Refuses a result in the job's own folder, where it would be a foreign file.
-pub fn apart(folder: &Path, output: &Path) -> Result<(), Failure> {
+pub fn outside(folder: &Path, output: &Path) -> Result<(), Failure> {
     let (folder, result) = (identity(folder), identity(output));
     if result == folder || result.parent() == Some(folder.as_path()) {
         let path = output.shown();
@@ -119,14 +103,7 @@ fn proved(
         }
         None => Status::Undecided,
     };
-    let work = &arguments.work;
-    match work.format {
-        Format::Json => print::json(&report)?,
-        Format::Text if work.quiet => {
-            print::answer(&(text::headline(&report, print::style()) + "\n"))?;
-        }
-        Format::Text => print::answer(&text::report(&report, print::style(), false))?,
-    }
+    print::report(&report, arguments.work.format, arguments.work.quiet, false)?;
     Ok(status)
 }
 
@@ -157,12 +134,9 @@ fn paved(
 /// Boxes remain: no certificate.
 fn undecided(arguments: &Arguments, open: usize) -> Result<Status, Failure> {
     let remain = counted(open, "box remains", "boxes remain");
-    match arguments.work.format {
-        Format::Json => print::json(&Remaining { verdict: "undecided", open })?,
-        Format::Text => {
-            print::answer(&format!("UNDECIDED  {remain}, no certificate is written\n"))?
-        }
-    }
+    print::told(arguments.work.format, &Remaining { verdict: "undecided", open }, || {
+        format!("UNDECIDED  {remain}, no certificate is written\n")
+    })?;
     Ok(Status::Undecided)
 }
 

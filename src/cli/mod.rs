@@ -11,6 +11,7 @@ mod check;
 mod completions;
 mod design;
 mod effort;
+mod ends;
 mod export;
 mod github;
 mod import;

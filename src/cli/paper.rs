@@ -60,10 +60,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let found = findings().map_err(|error| Failure::Input(format!("not established: {error}")))?;
     let rows: Vec<Row> =
         found.iter().map(|finding| row(finding, arguments)).collect::<Result<_, _>>()?;
-    match arguments.format {
-        Format::Json => print::json(&serde_json::json!({ "claims": rows }))?,
-        Format::Text => print::answer(&text(&rows))?,
-    }
+    print::told(arguments.format, &serde_json::json!({ "claims": rows }), || text(&rows))?;
     Ok(Status::Done)
 }
 
@@ -89,9 +86,8 @@ fn row(finding: &Finding, arguments: &Arguments) -> Result<Row, Failure> {
             for (name, certificate) in certificates {
                 row.certificates.push(name);
                 if let Some(folder) = &arguments.output {
-                    let text = certificate.to_text().map_err(|_| Failure::Defect)?;
                     let path = folder.join(format!("{name}.cert.json"));
-                    row.files.push(certify::store(Some(folder), &path, &text)?);
+                    row.files.push(certify::write(Some(folder), &path, certificate)?);
                 }
             }
         }

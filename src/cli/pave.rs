@@ -4,9 +4,8 @@ use super::{effort, input, interrupt, print, progress::Bar, Failure, Format, Sta
 use crate::design::{written, Design};
 use crate::exact::Exact;
 use crate::files::digest::Summed;
-use crate::files::output::{self, OutputError};
+use crate::files::output;
 use crate::files::read::{beside, Named};
-use crate::jobs::batch::plan::identity;
 use crate::report::paving::{unit_of_volume, PavingReport};
 use crate::search::paving::{
     are_places, components, depth_for_edge, in_box, pave, unfinished, Components, Decider, Goal,
@@ -17,7 +16,7 @@ use orthocert_kernel::number::Expression;
 use orthocert_kernel::paving::{names, Reader, Rejected, Subject};
 use std::cmp::Ordering;
 use std::fs::{self, OpenOptions};
-use std::io::{BufRead, BufReader, Read};
+use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -101,7 +100,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     output::probe(&unfinished(&target))?;
     let part = unfinished(&target);
     if !arguments.resume {
-        not_taken_up(&part, b"{\"format\":\"orthocert-paving/", "paving")?;
+        input::not_taken_up(&part, b"{\"format\":\"orthocert-paving/", "paving")?;
     }
     effort::start_threads(arguments.threads)?;
     deadline.into_iter().for_each(interrupt::at);
@@ -136,10 +135,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
 
 /// Prints the report.
 pub fn answer(report: &PavingReport, format: Format, quiet: bool) -> Result<Status, Failure> {
-    match format {
-        Format::Json => print::json(report)?,
-        Format::Text => print::answer(&report.text(quiet))?,
-    }
+    print::told(format, report, || report.text(quiet))?;
     Ok(if report.reached { Status::Done } else { Status::Undecided })
 }
 
@@ -277,38 +273,10 @@ impl Arguments {
         let target =
             self.output.clone().unwrap_or_else(|| beside(&self.design).with_extension("paving"));
         let target = regular(&target)?;
-        let design = identity(&self.design);
-        if identity(&target) == design {
-            return Err(refused(&target, "the design itself"));
-        }
-        if identity(&unfinished(&target)) == design {
-            return Err(refused(&target, "what the design would be the unfinished file of"));
-        }
+        input::apart(&target, [&self.design])?;
+        input::apart(&unfinished(&target), [&self.design])?;
         Ok(target)
     }
-}
-
-/// Says so where an earlier run left an unfinished paving or map, which begins like this; anything else stays.
-pub fn not_taken_up(part: &Path, begins: &[u8], what: &str) -> Result<(), Failure> {
-    if fs::symlink_metadata(part).is_err() {
-        return Ok(());
-    }
-    let mut start = Vec::new();
-    // Where another run is writing it, that is all there is to say.
-    let read = output::open_locked(part, false)?.take(begins.len() as u64).read_to_end(&mut start);
-    read.map_err(|error| Failure::from(OutputError::Io(part.to_owned(), error)))?;
-    let part = part.shown();
-    if !begins.starts_with(&start) {
-        return Err(Failure::Input(format!(
-            "--output: {part} is in the way, which is no unfinished {what}; accepted: another path"
-        )));
-    }
-    if !start.is_empty() {
-        print::diagnostic(&format!(
-            "{part}, which another run left, is not taken up: --resume would"
-        ));
-    }
-    Ok(())
 }
 
 /// Demands a box as the workspace; of a cylinder, z may be paved for all x and y.

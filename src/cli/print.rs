@@ -1,11 +1,15 @@
 //! Standard output and standard error: every byte that this program prints passes through here.
 
-use super::{progress, Failure};
+use super::{progress, Failure, Format, Status};
+use crate::files::read::Named;
 use crate::files::shown::lines;
 use crate::report::escape;
-use crate::report::text::Style;
+use crate::report::text::{self, Style};
+use crate::report::Report;
 use serde::Serialize;
+use std::fmt::Display;
 use std::io::{self, IsTerminal, Write};
+use std::path::Path;
 
 /// Prints a command's answer; a closed or full standard output is a failure, never a panic.
 pub fn answer(text: &str) -> Result<(), Failure> {
@@ -17,6 +21,47 @@ pub fn json(value: &impl Serialize) -> Result<(), Failure> {
     let text = escape::json(value)
         .map_err(|error| Failure::Output(format!("the answer cannot be written: {error}")))?;
     document(&text)
+}
+
+/// Prints a command's answer in the form that is asked for.
+pub fn told(
+    format: Format,
+    value: &impl Serialize,
+    text: impl FnOnce() -> String,
+) -> Result<(), Failure> {
+    match format {
+        Format::Json => json(value),
+        Format::Text => answer(&text()),
+    }
+}
+
+/// Prints what became of a design.
+pub fn report(report: &Report, format: Format, quiet: bool, verbose: bool) -> Result<(), Failure> {
+    told(format, report, || match quiet {
+        true => text::headline(report, style()) + "\n",
+        false => text::report(report, style(), verbose),
+    })
+}
+
+/// The answer for scripts that a file proves nothing.
+#[derive(Serialize)]
+struct Rejected<'a> {
+    accepted: bool,
+    reason: &'a str,
+}
+
+/// Tells that a file proves nothing, and why; the hint is for people alone.
+pub fn rejected(
+    format: Format,
+    path: &Path,
+    reason: &impl Display,
+    hint: &str,
+) -> Result<Status, Failure> {
+    match format {
+        Format::Json => json(&Rejected { accepted: false, reason: &reason.to_string() })?,
+        Format::Text => diagnostic(&format!("{}: REJECTED: {reason}{hint}", path.shown())),
+    }
+    Ok(Status::Rejected)
 }
 
 /// Prints a text of this program's own as it is.

@@ -17,7 +17,6 @@ use orthocert_checker::certificate::{Certificate, Verdict};
 use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::paving::{self, is_paving, Accepted, Reader, Share, Subject};
 use serde::Serialize;
-use std::fs;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -55,7 +54,7 @@ const MAX_PAVING: u64 = 1 << 30;
 /// The answer for scripts.
 #[derive(Serialize)]
 #[serde(untagged)]
-enum Answer<'a> {
+enum Answer {
     Written {
         accepted: bool,
         verdict: Verdict,
@@ -68,10 +67,6 @@ enum Answer<'a> {
         boundary_share: Share,
         paving_sha256: String,
         files: Vec<Written>,
-    },
-    Rejected {
-        accepted: bool,
-        reason: &'a str,
     },
 }
 
@@ -121,15 +116,10 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let pictures: Vec<&Picture> = page.pictures().collect();
     let files = arguments.write(&target, &page.html(), &pictures)?;
     let verdict = accepted.verdict;
-    match arguments.format {
-        Format::Json => print::json(&Answer::Written {
-            accepted: true,
-            verdict,
-            certificate_sha256: sha256(&bytes),
-            files,
-        })?,
-        Format::Text => print::answer(&listed(&verdict.to_string(), &files))?,
-    }
+    let text = listed(&verdict.to_string(), &files);
+    let certificate_sha256 = sha256(&bytes);
+    let answer = Answer::Written { accepted: true, verdict, certificate_sha256, files };
+    print::told(arguments.format, &answer, || text)?;
     Ok(Status::Decided(verdict))
 }
 
@@ -160,16 +150,15 @@ fn of_paving(arguments: &Arguments, bytes: &[u8], target: &Path) -> Result<Statu
     })?;
     let pictures: Vec<&Picture> = page.pictures().collect();
     let files = arguments.write(target, &page.html(), &pictures)?;
-    match arguments.format {
-        Format::Json => print::json(&Answer::Paving {
-            accepted: true,
-            inner_share: accepted.summary.inner_share,
-            boundary_share: accepted.summary.boundary_share,
-            paving_sha256: sha256(bytes),
-            files,
-        })?,
-        Format::Text => print::answer(&listed("paving", &files))?,
-    }
+    let text = listed("paving", &files);
+    let answer = Answer::Paving {
+        accepted: true,
+        inner_share: accepted.summary.inner_share,
+        boundary_share: accepted.summary.boundary_share,
+        paving_sha256: sha256(bytes),
+        files,
+    };
+    print::told(arguments.format, &answer, || text)?;
     Ok(Status::Done)
 }
 
@@ -185,14 +174,9 @@ fn examined(bytes: &[u8]) -> Result<(Accepted, Tree, Option<Components>), Surfac
 }
 
 fn reject(arguments: &Arguments, reason: &str) -> Result<Status, Failure> {
-    match arguments.format {
-        Format::Json => print::json(&Answer::Rejected { accepted: false, reason })?,
-        Format::Text => {
-            let (path, hint) = (arguments.shown(), input::design_hint(&arguments.certificate));
-            print::diagnostic(&format!("{path}: REJECTED: {reason}{hint}; no report is written"));
-        }
-    }
-    Ok(Status::Rejected)
+    let path = &arguments.certificate;
+    let hint = input::design_hint(path) + "; no report is written";
+    print::rejected(arguments.format, path, &reason, &hint)
 }
 
 impl Arguments {
@@ -227,8 +211,7 @@ impl Arguments {
     ) -> Result<Vec<Written>, Failure> {
         let mut files = Vec::new();
         let mut write = |folder: Option<&Path>, path: &Path, bytes: &[u8]| -> Result<(), Failure> {
-            input::apart(path, std::slice::from_ref(&self.certificate))?;
-            input::apart(path, self.design.as_slice())?;
+            self.apart(path)?;
             match folder {
                 Some(folder) => output::write_below(folder, path, bytes)?,
                 None => output::write(path, bytes)?,
@@ -252,18 +235,12 @@ impl Arguments {
             Some(output) => output.clone(),
             None => beside(&self.certificate),
         };
-        let same = match (fs::canonicalize(&self.certificate), fs::canonicalize(&target)) {
-            (Ok(one), Ok(other)) => one == other,
-            _ => false,
-        };
-        if same {
-            let path = target.shown();
-            let message = format!(
-                "--output: {path} is the very file to be reported on; accepted: another path"
-            );
-            return Err(Failure::Input(message));
-        }
+        self.apart(&target)?;
         Ok(target)
+    }
+
+    fn apart(&self, output: &Path) -> Result<(), Failure> {
+        input::apart(output, [&self.certificate].into_iter().chain(&self.design))
     }
 }
 

@@ -1,11 +1,10 @@
 //! `orthocert run-shard`.
 
 use super::effort::Work;
-use super::{print, Failure, Format, Status};
+use super::{print, Failure, Status};
 use crate::cli::progress::Bar;
-use crate::files::read::Named;
+use crate::files::read::{identity, Named};
 use crate::files::shown::Shown;
-use crate::jobs::batch::plan::identity;
 use crate::jobs::shard::{self, Ran, RunError};
 use crate::search::Control;
 use serde::Serialize;
@@ -68,10 +67,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         seconds: started.elapsed().as_secs_f64(),
         job: shard.job,
     };
-    match arguments.work.format {
-        Format::Json => print::json(&answer)?,
-        Format::Text => print::answer(&text(&answer))?,
-    }
+    print::told(arguments.work.format, &answer, || text(&answer))?;
     Ok(Status::Done)
 }
 

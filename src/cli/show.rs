@@ -2,7 +2,6 @@
 
 use super::{input, print, Failure, Format, Status};
 use crate::exact::decimal::{boxes, exact, grouped};
-use crate::files::read::Named;
 use crate::report::counterexample;
 use crate::report::text::{labelled, wrap};
 use crate::report::wrapped;
@@ -88,19 +87,15 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let certificate = match read(&bytes) {
         Ok(certificate) => certificate,
         Err(reason) => {
-            let path = arguments.certificate.shown();
             let hint = match is_paving(&bytes) {
                 true => "; it is a paving, which `orthocert check` and `report` read".to_owned(),
                 false => input::design_hint(&arguments.certificate),
             };
-            print::diagnostic(&format!("{path}: REJECTED: {reason}{hint}"));
-            return Ok(Status::Rejected);
+            return print::rejected(Format::Text, &arguments.certificate, &reason, &hint);
         }
     };
-    match arguments.format {
-        Format::Text => print::answer(&text(&certificate, bytes.len()))?,
-        Format::Json => print::json(&shown(&certificate, bytes.len()))?,
-    }
+    let shown = shown(&certificate, bytes.len());
+    print::told(arguments.format, &shown, || text(&certificate, bytes.len()))?;
     Ok(Status::Done)
 }
 

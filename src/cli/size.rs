@@ -1,16 +1,15 @@
-//! `orthocert size`, and what it has in common with `orthocert tolerance`.
+//! `orthocert size`.
 
 use super::certify::{self, Unwritten};
-use super::{effort, input, interrupt, print, Failure, Format, Status};
-use crate::design::Design;
-use crate::exact::decimal::{exact, outward, readable, rounded, Toward};
+use super::ends::{explain, gap, gap_text, missed, NOT_BEST};
+use super::{effort, input, interrupt, print, Failure, Status};
+use crate::exact::decimal::{exact, outward, readable, Toward};
 use crate::exact::Exact;
-use crate::questions::frontier::{Bracket, Certified, NoAnswer};
+use crate::questions::frontier::{Bracket, Certified};
 use crate::questions::size::{Family, Scope, Unknown};
-use crate::report::text::{duration, labelled, verbatim, wrap};
+use crate::report::text::{duration, file_line, labelled, wrap};
 use crate::report::{counterexample, CertificateFile, Counterexample};
 use num_rational::BigRational;
-use orthocert_checker::certificate::Certificate;
 use orthocert_kernel::claim::{Leg, MachineClaim, Mechanism, Quantity};
 use serde::Serialize;
 use std::fmt::Write;
@@ -20,8 +19,6 @@ use std::time::Instant;
 /// Boxes after which a size counts as not certified; of centres, as not refuted for every
 /// axis-aligned placement.
 const BOXES: u64 = 20_000;
-/// What is missed where both ends are near.
-pub const NOT_BEST: &str = "not, but the time was up before the best place of a cube was found";
 /// Significant digits of a size.
 const DIGITS: u32 = 15;
 
@@ -129,10 +126,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     };
     let length = common_length(claim);
     let answer = Answer { length, length_unit: design.unit, missed, ..answer };
-    match effort.format {
-        Format::Json => print::json(&answer)?,
-        Format::Text => print::answer(&text(&answer, effort.quiet, started))?,
-    }
+    print::told(effort.format, &answer, || text(&answer, effort.quiet, started))?;
     let is_done = answer.gap_reached && answer.missed.is_none();
     let status = if is_done { Status::Done } else { Status::Undecided };
     unwritten.told()?;
@@ -150,46 +144,6 @@ fn common_length(claim: &MachineClaim) -> Option<Exact> {
     let first = length(legs.first()?)?;
     let same = legs.iter().all(|leg| length(leg).as_ref() == Some(&first));
     same.then(|| Exact::of(&first)).flatten()
-}
-
-/// The relative width that an option `--gap` asks for.
-pub fn gap(text: &str, ends: [&str; 2]) -> Result<f64, Failure> {
-    let found = input::within("--gap", text, ends)?;
-    crate::exact::decimal::approximate(&found).ok_or(Failure::Defect)
-}
-
-/// The failure that there is no answer.
-pub fn explain(error: NoAnswer, design: &Design) -> Failure {
-    match error {
-        NoAnswer::Cancelled => Failure::Interrupted,
-        NoAnswer::Unfit { key, found, accepted } => {
-            Failure::Input(design.refused(&key, &found, accepted))
-        }
-        error => Failure::input(error),
-    }
-}
-
-/// Writes a certificate into a file of a folder.
-pub fn file(
-    folder: &Path,
-    name: &str,
-    certificate: &Certificate,
-) -> Result<CertificateFile, Failure> {
-    let text = certificate.to_text().map_err(|_| Failure::Defect)?;
-    certify::store(Some(folder), &folder.join(name), &text)
-}
-
-/// Why an answer is wider than the gap that was asked for, if neither was interrupted nor endless.
-pub fn missed(out_of_time: bool) -> &'static str {
-    match out_of_time {
-        true => "the time was up",
-        false => "no nearer proof was found within the boxes of a search; --max-boxes sets them",
-    }
-}
-
-/// A relative width, two digits, rounded up.
-pub fn gap_text(gap: &BigRational) -> String {
-    rounded(gap, 2, Toward::Above)
 }
 
 fn scope(scope: Scope) -> &'static str {
@@ -263,7 +217,8 @@ fn stored(
     let there = ends.into_iter().filter_map(|(name, end)| Some((name, &end?.1)));
     there
         .filter_map(|(name, certificate)| {
-            unwritten.unless(file(folder, &format!("size-{name}.cert.json"), certificate))
+            let path = folder.join(format!("size-{name}.cert.json"));
+            unwritten.unless(certify::write(Some(folder), &path, certificate))
         })
         .collect()
 }
@@ -352,9 +307,7 @@ fn text(answer: &Answer, quiet: bool, started: Instant) -> String {
         let centre: Vec<String> = centre.iter().map(exact).collect();
         labelled(&mut out, "centre", &format!("({}), of the certified cube", centre.join(", ")));
     }
-    for CertificateFile { path, bytes, .. } in &answer.certificates {
-        verbatim(&mut out, "certificate", &format!("{path} ({bytes} bytes)"));
-    }
+    answer.certificates.iter().for_each(|file| file_line(&mut out, file));
     out.push('\n');
     wrap(
         &mut out,

@@ -1,7 +1,7 @@
 //! `orthocert split`.
 
 use super::effort::Work;
-use super::{atlas, input, pave, print, Failure, Format, Status};
+use super::{input, pave, print, Failure, Status};
 use crate::cli::progress::Bar;
 use crate::design::{is_atlas, AtlasDesign, Design};
 use crate::exact::decimal::{counted, grouped};
@@ -93,10 +93,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         shards: count,
         cells,
     };
-    match arguments.work.format {
-        Format::Json => print::json(&answer)?,
-        Format::Text => print::answer(&text_of(&answer))?,
-    }
+    print::told(arguments.work.format, &answer, || text_of(&answer))?;
     Ok(Status::Done)
 }
 
@@ -134,7 +131,7 @@ fn text_of(answer: &Answer) -> String {
 
 /// The folder, made if it is not there; it has to be empty, so that nothing is lost or mixed.
 fn empty(folder: &Path) -> Result<(), Failure> {
-    atlas::made(folder)?;
+    output::folder(folder, folder)?;
     let unlisted =
         |error| Failure::Output(format!("{}: cannot be listed: {error}", folder.shown()));
     match fs::read_dir(folder).map_err(unlisted)?.next() {

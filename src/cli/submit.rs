@@ -62,7 +62,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         let message = "options after -- are for sbatch; with --engine hyperqueue there are none";
         return Err(Failure::Input(message.to_owned()));
     }
-    merge::apart(&arguments.folder, &arguments.output)?;
+    merge::outside(&arguments.folder, &arguments.output)?;
     let job = read_job(&arguments.folder.join(JOB_FILE)).map_err(Failure::input)?;
     let submission = Submission {
         program: absolute(
@@ -94,10 +94,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         engine_job: submitted.as_ref().map(|submitted| submitted.shards.clone()),
         engine_merge: submitted.map(|submitted| submitted.merge),
     };
-    match arguments.format {
-        Format::Json => print::json(&answer)?,
-        Format::Text => print::answer(&text(&answer))?,
-    }
+    print::told(arguments.format, &answer, || text(&answer))?;
     Ok(Status::Done)
 }
 

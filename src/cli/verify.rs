@@ -1,9 +1,8 @@
 //! `orthocert verify`.
 
 use super::{batch, effort::Effort, input, print, prove::Task, Failure, Format, Status};
-use crate::files::read::Named;
-use crate::jobs::batch::plan::{certificate_of, identity};
-use crate::report::{text, Margin, Report};
+use crate::jobs::batch::plan::certificate_of;
+use crate::report::{Margin, Report};
 use crate::search::solver;
 use crate::search::solver::enclose::enclose;
 use crate::search::solver::extremes::Extreme;
@@ -85,13 +84,7 @@ fn single(arguments: &Arguments, path: Option<&PathBuf>) -> Result<Status, Failu
     if task.table {
         report.margins = margins(&report, &design.claim, effort, budget);
     }
-    match effort.format {
-        Format::Json => print::json(&report)?,
-        Format::Text if effort.quiet => {
-            print::answer(&(text::headline(&report, print::style()) + "\n"))?;
-        }
-        Format::Text => print::answer(&text::report(&report, print::style(), *verbose))?,
-    }
+    print::report(&report, effort.format, effort.quiet, *verbose)?;
     Ok(status)
 }
 
@@ -132,10 +125,6 @@ fn target(output: Option<&Path>, design: Option<&Path>) -> Result<PathBuf, Failu
         (None, Some(design)) => certificate_of(design),
         (None, None) => PathBuf::from(PROTOTYPE),
     };
-    if design.is_some_and(|design| identity(design) == identity(&target)) {
-        let path = target.shown();
-        let message = format!("--output: {path} is the design itself; accepted: another path");
-        return Err(Failure::Input(message));
-    }
+    input::apart(&target, design)?;
     Ok(target)
 }

@@ -1,8 +1,10 @@
 //! Files that are read, and their names.
 
 use crate::files::open::{is_stream, open};
+use crate::files::output::folder_of;
 use crate::files::shown::Shown;
 use std::ffi::OsStr;
+use std::fs;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
@@ -34,6 +36,17 @@ pub fn named_after(design: &Path, name: &str, folder: Option<&Path>) -> PathBuf 
         Some(folder) => folder.join(file),
         None => design.with_file_name(file),
     }
+}
+
+/// The same for all ways to write the path of a file, which need not exist if its folder does.
+pub fn identity(path: &Path) -> PathBuf {
+    fs::canonicalize(path).ok().or_else(|| in_folder(path)).unwrap_or_else(|| path.to_owned())
+}
+
+/// The same for all ways to write the folder; a link stays what it is.
+pub fn in_folder(path: &Path) -> Option<PathBuf> {
+    let folder = fs::canonicalize(folder_of(path)).ok()?;
+    Some(folder.join(path.file_name()?))
 }
 
 /// The bytes of a file, or the first `limit` and one more: then it is too large.

@@ -1,10 +1,10 @@
 //! What a map of designs holds, for people and for scripts.
 
-use super::text::{labelled, verbatim, wrap};
+use super::text::{file_line, labelled, verbatim, wrap};
 use super::CertificateFile;
 use crate::design::Parameter;
 use crate::exact::decimal::{
-    approximate, boxes, counted, exact, grouped, percent, significant, Toward,
+    approximate, boxes, counted, exact, percent, significant, Toward,
 };
 use crate::exact::Exact;
 use crate::files::shown::Shown;
@@ -224,9 +224,7 @@ impl AtlasReport {
         }
         out.push('\n');
         labelled(&mut out, "proof", &format!("{} in the trees of all cells", boxes(self.nodes)));
-        let CertificateFile { path, bytes, .. } = &self.certificate;
-        let size = grouped(*bytes as u64);
-        verbatim(&mut out, "certificate", &format!("{path} ({size} bytes)"));
+        file_line(&mut out, &self.certificate);
         let best = self.best.as_ref();
         let own = best.and_then(|best| best.certificate.as_ref()).map(|file| &file.path);
         let bound = best.and_then(|best| best.bound.as_ref()).map(|bound| &bound.certificate.path);

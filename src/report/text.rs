@@ -482,9 +482,14 @@ fn files(out: &mut String, report: &Report) {
 }
 
 fn certificate(out: &mut String, file: &CertificateFile) {
+    file_line(out, file);
+    labelled(out, "sha256", &file.sha256);
+}
+
+/// The line of a certificate that was written.
+pub fn file_line(out: &mut String, file: &CertificateFile) {
     let bytes = grouped(file.bytes as u64);
     verbatim(out, "certificate", &format!("{} ({bytes} bytes)", file.path));
-    labelled(out, "sha256", &file.sha256);
 }
 
 fn earlier_file(out: &mut String, earlier: &EarlierFile) {

@@ -118,6 +118,6 @@ fn nothing_is_attested_of_another_claim_or_of_a_rejected_certificate() {
     let arguments = ["attest", "proofs/b.cert.json", "--design", "designs/b.toml", "-o"];
     for output in ["./proofs/b.cert.json", "designs/sub/../b.toml"] {
         let run = folder.run(&[&arguments[..], &[output]].concat()).exits(2);
-        run.complains(&["what the statement is about"]);
+        run.complains(&["is a file that is read"]);
     }
 }

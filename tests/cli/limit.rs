@@ -136,7 +136,9 @@ fn a_gap_that_is_not_reached_leaves_the_nearest_ends() {
     let all = ["limit", design, "mechanism.leg_length", "--direction", "down", "--max-boxes", "30"];
     let run = folder.run(&all).exits(3);
     let run = run.says(&["lower limit", "more than asked for", "undecided 310.", "may help"]);
-    assert!(run.stdout.lines().all(|line| line.chars().count() <= 80), "{}", run.stdout);
+    // Paths are not broken.
+    let mut lines = run.stdout.lines().filter(|line| !line.starts_with("  certificate "));
+    assert!(lines.all(|line| line.chars().count() <= 80), "{}", run.stdout);
     folder.run(&["check", "orthoglide-tolerance.limit-lower-certified.cert.json"]).exits(0);
     folder.run(&["check", "orthoglide-tolerance.limit-lower-refuted.cert.json"]).exits(1);
 }

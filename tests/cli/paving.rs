@@ -188,7 +188,7 @@ fn what_is_taken_up_is_as_fine_as_what_is_grown() {
 fn a_design_or_a_strangers_file_is_no_unfinished_paving() {
     let folder = Folder::new();
     folder.write("q.part", DESIGN);
-    folder.run(&["pave", "q.part", "-o", "q"]).exits(2).complains(&["--output", "the design"]);
+    folder.run(&["pave", "q.part", "-o", "q"]).exits(2).complains(&["--output", "is a file that is read"]);
     folder.run(&["pave", "q.part", "-o", "./q"]).exits(2);
     folder.write("d.toml", DESIGN);
     folder.write("d.paving.part", "a letter");
@@ -401,7 +401,7 @@ fn bad_usage_is_refused() {
         folder.run(arguments).exits(2).complains(&[complaint]);
     }
     for (output, complaint) in
-        [("/dev/null", "not a regular file"), ("d.toml", "the design itself")]
+        [("/dev/null", "not a regular file"), ("d.toml", "is a file that is read")]
     {
         folder.run(&["pave", "d.toml", "-o", output]).exits(2).complains(&[complaint]);
     }

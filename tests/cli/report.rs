@@ -53,7 +53,7 @@ fn what_cannot_be_read_or_written_is_said() {
     folder
         .run(&["report", &file, "-o", &file])
         .exits(2)
-        .complains(&["the very file to be reported on"]);
+        .complains(&["is a file that is read"]);
     folder.run(&["report", &file, "-o", "no/such/a.html"]).exits(4).complains(&["no folder"]);
     folder.run(&["report", &file, "-o", "."]).exits(4).complains(&["is a folder"]);
     folder.write("plain", "");

@@ -164,10 +164,9 @@ impl Row {
         let Some(folder) = &arguments.output else { return Ok(()) };
         let inner = refuted.into_iter().map(|certificate| (certificate, "inner"));
         for (certificate, side) in inner.chain([(certified, "outer")]) {
-            let text = certificate.to_text().map_err(|_| Failure::Defect)?;
             let path = folder.join(format!("{stem}-{side}.cert.json"));
-            let stored = certify::store(Some(folder), &path, &text);
-            self.certificates.extend(self.unwritten.unless(stored));
+            let written = certify::write(Some(folder), &path, certificate);
+            self.certificates.extend(self.unwritten.unless(written));
         }
         Ok(())
     }

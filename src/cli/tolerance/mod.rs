@@ -8,7 +8,7 @@
 mod rows;
 mod text;
 
-use super::size::gap;
+use super::ends::gap;
 use super::{effort, input, interrupt, print, Failure, Format, Status};
 use crate::design::Design;
 use crate::exact::decimal::exact;

@@ -3,7 +3,8 @@
 use super::Arguments;
 use crate::cli::certify::Unwritten;
 use crate::cli::progress::Bar;
-use crate::cli::size::{explain, file, gap_text};
+use crate::cli::certify;
+use crate::cli::ends::{explain, gap_text};
 use crate::cli::{interrupt, Failure};
 use crate::design::Design;
 use crate::exact::Exact;
@@ -265,8 +266,9 @@ fn row(
     if let Some(folder) = &arguments.output {
         for (end, side) in [(&found.certified, "certified"), (&found.refuted, "refuted")] {
             if let Some((_, certificate)) = end {
-                let name = format!("tolerance-{stem}-{side}.cert.json");
-                certificates.extend(unwritten.unless(file(folder, &name, certificate)));
+                let path = folder.join(format!("tolerance-{stem}-{side}.cert.json"));
+                let written = certify::write(Some(folder), &path, certificate);
+                certificates.extend(unwritten.unless(written));
             }
         }
     }

@@ -1,7 +1,7 @@
 //! The designs that files and folders stand for, and where their certificates go.
 
-use crate::files::output::{folder_of, follows_links};
-use crate::files::read::{beside, Named};
+use crate::files::output::follows_links;
+use crate::files::read::{beside, identity, in_folder, Named};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io;
@@ -103,17 +103,6 @@ pub fn plan(arguments: &[PathBuf], out: Option<&Path>) -> Result<Vec<Planned>, P
         }
     }
     Ok(planned)
-}
-
-/// The same for all ways to write the path of a file, which need not exist if its folder does.
-pub fn identity(path: &Path) -> PathBuf {
-    fs::canonicalize(path).ok().or_else(|| in_folder(path)).unwrap_or_else(|| path.to_owned())
-}
-
-/// The same for all ways to write the folder; a link stays what it is.
-fn in_folder(path: &Path) -> Option<PathBuf> {
-    let folder = fs::canonicalize(folder_of(path)).ok()?;
-    Some(folder.join(path.file_name()?))
 }
 
 /// `NAME.cert.json` beside `NAME.toml`.

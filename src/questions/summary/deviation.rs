@@ -2,14 +2,13 @@
 //! where the other is of one size with what is so.
 
 use super::End;
-use crate::exact::arithmetic::number;
 use crate::search::solver::enclose::{beyond, reached, seen, NotEnclosed};
 use crate::search::solver::extremes::Extreme;
 use crate::search::solver::{proof, value};
 use crate::search::{Budget, Control, Steps, Stop};
 use num_rational::BigRational;
 use num_traits::Signed;
-use orthocert_kernel::claim::{Bound, MachineClaim, Mechanism, Requirement};
+use orthocert_kernel::claim::{MachineClaim, Mechanism, Requirement};
 
 /// What both bounds are tried at, in parts of a hundred of the worst that is seen: of one that fails, no
 /// tighter one is tried.
@@ -48,7 +47,8 @@ pub fn deviation(
         let factor = BigRational::new(part.into(), 100.into());
         let bounds = worst.each_ref().map(|(seen, _)| beyond(*seen, &factor));
         let [Some(off), Some(turned)] = &bounds else { break };
-        let both = value::alone(&claim, vec![bounded(own, [off, turned])]);
+        let both = distance.with_other_part(turned).and_then(|both| both.claim(&claim, off));
+        let Some(both) = both else { break };
         match steps.next(control, OF_WORST.len() - number, |control| proof(&both, budget, control))
         {
             Ok(_) => best = Ok([off.clone(), turned.clone()]),
@@ -64,12 +64,4 @@ pub fn deviation(
         End { certified, reached, relative, own_bound: false }
     };
     best.map(|[one, other]| [end(one, off), end(other, turned)])
-}
-
-/// The requirement with both bounds.
-fn bounded(own: &Requirement, [off, turned]: [&BigRational; 2]) -> Requirement {
-    let mut own = own.clone();
-    own.bound = Bound::Max(number(off));
-    own.given.insert("max_angle".to_owned(), vec![number(turned)]);
-    own
 }

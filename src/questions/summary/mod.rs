@@ -29,14 +29,13 @@ use crate::exact::decimal::{rounded, Toward};
 use crate::exact::Exact;
 use crate::report::{Counterexample, Facts, Outcome, Report};
 use crate::search::solver::enclose::{enclose, is_singular, reached, Enclosed, NotEnclosed};
-use crate::search::solver::extremes::Extreme;
-use crate::search::solver::value::{Bounded, Coordinates};
+use crate::search::solver::value::Coordinates;
 use crate::search::solver::{sector, Verification};
 use crate::search::{at_once, turns, Budget, Control, Steps};
 use asked::{asked, Asked};
 use num_rational::BigRational;
 use orthocert_checker::certificate::Verdict;
-use orthocert_kernel::claim::{Bound, MachineClaim, Requirement};
+use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::problem::Problem;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -289,7 +288,7 @@ fn tightened(
     gap: &BigRational,
 ) -> Result<Vec<End>, NotEnclosed> {
     let Asked::Extreme(extreme) = asked else { return ends };
-    let Some(bound) = required(claim, extreme) else { return ends };
+    let Some(bound) = extreme.required_bound(claim) else { return ends };
     match &mut ends {
         Ok(ends) => {
             for End { certified, own_bound, .. } in ends {
@@ -305,24 +304,6 @@ fn tightened(
         Err(_) => {}
     }
     ends
-}
-
-/// What the claim itself says of an extreme.
-fn required(claim: &MachineClaim, extreme: &Extreme) -> Option<BigRational> {
-    let (one, leg) = (&extreme.bounded().requirement, extreme.bounded().leg.map(|leg| leg + 1));
-    let own = claim.require.iter().filter(|own| {
-        let same = own.quantity == one.quantity && own.given == one.given;
-        same && (own.leg.is_none() || own.leg == leg)
-    });
-    let bounded =
-        |own: &Requirement| Bounded { requirement: own.clone(), ..extreme.bounded().clone() };
-    let mut bounds = own.filter_map(|own| match (&bounded(own).bound(), extreme.is_greatest()) {
-        (Bound::Min(bound), false) | (Bound::Max(bound), true) => {
-            Exact::of(bound)?.as_rational().cloned()
-        }
-        _ => None,
-    });
-    bounds.next()
 }
 
 impl Found {

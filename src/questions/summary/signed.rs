@@ -1,7 +1,7 @@
 //! What a designer signs of a certified machine, beside its verdict.
 
 use super::asked::{asked, is_angular, Asked, Question};
-use super::{ends, required, text, tightened, End, Found};
+use super::{ends, text, tightened, End, Found};
 use crate::search::{Budget, Control};
 use num_rational::BigRational;
 use orthocert_kernel::claim::MachineClaim;
@@ -36,7 +36,7 @@ pub fn signed(claim: &MachineClaim, length: Option<&str>) -> Vec<(String, String
     let mut found = |asked: Asked| {
         let of_bound = match &asked {
             Asked::Extreme(extreme) if turns && LONG.contains(&asked.of().0) => {
-                required(claim, extreme)
+                extreme.required_bound(claim)
             }
             _ => None,
         };

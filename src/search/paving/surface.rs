@@ -61,7 +61,7 @@ pub struct Surface {
 #[non_exhaustive]
 pub enum SurfaceError {
     /// The paving is malformed.
-    #[error("REJECTED: {0}")]
+    #[error("{0}")]
     Rejected(#[from] Rejected),
     /// No cell is inner.
     #[error("no box is inner: there is no surface")]

@@ -138,7 +138,7 @@ impl Extreme {
     }
 
     /// With this bound on that.
-    pub(super) fn with_other_part(&self, bound: &BigRational) -> Option<Self> {
+    pub fn with_other_part(&self, bound: &BigRational) -> Option<Self> {
         let own = self.bounded.clone();
         let other = Bounded { angle: !own.angle, ..own.clone() };
         let requirement = other.bounded_by(number(bound))?;
@@ -160,7 +160,7 @@ impl Extreme {
     }
 
     /// The tightest rational bound that a claim itself has for it.
-    pub(super) fn required_bound(&self, claim: &MachineClaim) -> Option<BigRational> {
+    pub fn required_bound(&self, claim: &MachineClaim) -> Option<BigRational> {
         let one = &self.bounded.requirement;
         let is_speed = one.quantity == "joint_speed";
         let is_it = |own: &&Requirement| {
@@ -177,11 +177,12 @@ impl Extreme {
                 (Bound::Max(x) | Bound::Within([_, x]), Bound::Max(_)) => x,
                 _ => return None,
             };
-            // Here it is that of a unit of tool speed.
-            let tool = own.given.get("tool").filter(|_| is_speed);
-            let tool =
-                tool.map_or_else(|| Some(BigRational::one()), |tool| rational(tool.first()?));
-            Some(rational(x)? / tool.filter(|tool| !tool.is_zero())?)
+            // It is linear in the tool's speed.
+            let tool = |own: &Requirement| match is_speed {
+                true => rational(own.given.get("tool")?.first()?).filter(|x| !x.is_zero()),
+                false => Some(BigRational::one()),
+            };
+            Some(rational(x)? * tool(one)? / tool(own)?)
         };
         let all = claim.require.iter().filter(is_it).filter_map(of);
         all.reduce(if self.is_greatest() { BigRational::min } else { BigRational::max })
@@ -212,7 +213,7 @@ impl Extreme {
     }
 
     /// "The quantity stays within `bound`", and nothing else but what defines the paper's cube.
-    pub(super) fn claim(&self, claim: &MachineClaim, bound: &BigRational) -> Option<MachineClaim> {
+    pub fn claim(&self, claim: &MachineClaim, bound: &BigRational) -> Option<MachineClaim> {
         Some(sought(claim, self.bounded.bounded_by(number(bound))?))
     }
 
