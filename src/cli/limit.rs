@@ -390,9 +390,7 @@ fn limit(out: &mut String, row: &Row) {
 /// The requirement that limits, and where.
 fn place(out: &mut String, place: &Place) {
     labelled(out, "limited by", &place.limit);
-    if let Some(value) = &place.value {
-        labelled(out, "value there", value);
-    }
+    labelled(out, "value there", &place.value);
     match &place.pose {
         Some(pose) => labelled(out, "at", pose),
         None => labelled(out, "at", &format!("({})", place.point.join(", "))),

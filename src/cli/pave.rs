@@ -88,7 +88,8 @@ pub struct Arguments {
 /// Runs it.
 pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let started = Instant::now();
-    let timeout = arguments.timeout.as_deref().map(|text| effort::time("--timeout", text)).transpose()?;
+    let timeout =
+        arguments.timeout.as_deref().map(|text| effort::time("--timeout", text)).transpose()?;
     let deadline = timeout.and_then(|timeout| started.checked_add(timeout));
     let design = input::design(Some(&arguments.design), arguments.quiet)?;
     let claim = &searched(&design.claim, arguments.search_box.as_deref())?;
@@ -113,7 +114,9 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
             drop(bar);
             return cancelled(&part, deadline.is_some_and(|time| time <= Instant::now()));
         }
-        Err(error @ (PaveError::Claim(_) | PaveError::Resume(..))) => return Err(Failure::input(error)),
+        Err(error @ (PaveError::Claim(_) | PaveError::Resume(..))) => {
+            return Err(Failure::input(error))
+        }
         Err(error) => return Err(Failure::Output(error.to_string())),
     };
     let elapsed = started.elapsed();

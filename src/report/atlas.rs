@@ -3,9 +3,7 @@
 use super::text::{file_line, labelled, verbatim, wrap};
 use super::CertificateFile;
 use crate::design::Parameter;
-use crate::exact::decimal::{
-    approximate, boxes, counted, exact, percent, significant, Toward,
-};
+use crate::exact::decimal::{approximate, boxes, counted, exact, percent, significant, Toward};
 use crate::exact::Exact;
 use crate::files::shown::Shown;
 use num_rational::BigRational;

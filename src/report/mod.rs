@@ -5,9 +5,9 @@ pub mod atlas;
 mod counterexample;
 pub mod escape;
 pub mod export;
+mod facts;
 pub mod formulas;
 mod hint;
-mod kernel;
 mod machine;
 pub mod map;
 pub mod page;
@@ -22,7 +22,7 @@ mod worst;
 mod wrap;
 
 pub use counterexample::{Counterexample, Near, Setting};
-pub use kernel::{parameter, shown, Facts};
+pub use facts::{parameter, shown, Facts};
 pub use machine::{machine_at_ends, machine_of_witness};
 pub use place::{placed, point_text, pose_text, FreeParameter};
 pub use postulate::PostulateReport;
@@ -177,7 +177,7 @@ pub fn counterexample(certificate: &Certificate) -> Option<Counterexample> {
         return None;
     };
     let problem = Problem::new(claim).ok()?;
-    kernel::Facts::new(claim, &problem)?.counterexample(witness)
+    Facts::new(claim, &problem)?.counterexample(witness)
 }
 
 /// A certificate on the disk.
@@ -236,7 +236,7 @@ impl Report {
         let mut report =
             Report::about(Claim::Machine(claim.clone()), coordinates, found.boxes, elapsed);
         let problem = Problem::new(claim).ok()?;
-        let facts = kernel::Facts::new(claim, &problem)?;
+        let facts = Facts::new(claim, &problem)?;
         match &found.answer {
             solver::Answer::Cancelled => return None,
             solver::Answer::Decided { certificate, accepted } => {

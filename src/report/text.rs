@@ -1,6 +1,6 @@
 //! Reports for people: the verdict first, then the table, within 80 columns.
 
-use super::kernel::{DETERMINANT, RADICAND};
+use super::facts::{DETERMINANT, RADICAND};
 use super::place::{angle_of, in_degrees, placed, point_text, pose_text, turn_text, FreeParameter};
 use super::remains::OpenRequirement;
 use super::{

@@ -50,10 +50,7 @@ fn what_cannot_be_read_or_written_is_said() {
     let folder = Folder::new();
     let file = committed(&folder, "orthoglide-prototype");
     folder.run(&["report", "missing.json"]).exits(2).complains(&["cannot be read"]);
-    folder
-        .run(&["report", &file, "-o", &file])
-        .exits(2)
-        .complains(&["is a file that is read"]);
+    folder.run(&["report", &file, "-o", &file]).exits(2).complains(&["is a file that is read"]);
     folder.run(&["report", &file, "-o", "no/such/a.html"]).exits(4).complains(&["no folder"]);
     folder.run(&["report", &file, "-o", "."]).exits(4).complains(&["is a folder"]);
     folder.write("plain", "");

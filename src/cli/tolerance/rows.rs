@@ -1,10 +1,10 @@
 //! The rows of an answer: what each widens, their search side by side, and what they tell.
 
 use super::Arguments;
-use crate::cli::certify::Unwritten;
-use crate::cli::progress::Bar;
 use crate::cli::certify;
+use crate::cli::certify::Unwritten;
 use crate::cli::ends::{explain, gap_text};
+use crate::cli::progress::Bar;
 use crate::cli::{interrupt, Failure};
 use crate::design::Design;
 use crate::exact::Exact;

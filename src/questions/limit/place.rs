@@ -12,9 +12,8 @@ use std::collections::BTreeMap;
 pub struct Place {
     /// The requirement: `greatest psi <= 2`.
     pub violated: String,
-    /// The value there, with certified digits, where there is one.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub value: Option<String>,
+    /// The value there, with certified digits.
+    pub value: String,
     /// The point, in exact numbers.
     pub point: Vec<String>,
     /// A second point, where the determinant of `M` has the opposite sign.
@@ -47,7 +46,7 @@ impl Place {
             limit: found.limit,
             pose: found.pose,
             violated: found.violated,
-            value: Some(found.value),
+            value: found.value,
             point: texts(&found.point),
             other_point: found.other_point.as_deref().map(texts).unwrap_or_default(),
             machine: found.machine.iter().map(setting).collect(),

@@ -5,7 +5,7 @@ use super::mechanism::typeset;
 use super::subdivision::{Leaf, Subdivision};
 use crate::exact::decimal::{counted, grouped, significant};
 use crate::report::escape::xml;
-use crate::report::kernel::RADICAND;
+use crate::report::facts::RADICAND;
 use std::fmt::Write;
 
 /// Boxes listed among those where the proof worked hardest.

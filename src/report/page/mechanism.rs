@@ -3,7 +3,7 @@
 use crate::exact::decimal::begun;
 use crate::exact::Exact;
 use crate::report::escape::xml;
-use crate::report::kernel::parameter;
+use crate::report::facts::parameter;
 use crate::search::solver::value::name_of;
 use orthocert_kernel::claim::{
     Bound, Leg, MachineClaim, Mechanism, Orientation, Quantity, Requirement, Workspace,
