@@ -118,7 +118,7 @@ pub fn report(report: &Report, style: Style, verbose: bool) -> String {
     }
     report.notes.iter().for_each(|note| labelled(&mut out, "note", note));
     if let Some(remains) = &report.undecided {
-        describe_remains(&mut out, remains, &report.coordinates, verbose);
+        describe_remains(&mut out, remains, &report.coordinates, (verbose, toleranced));
     }
     out.push('\n');
     table(&mut out, report, verbose);
@@ -364,7 +364,12 @@ fn point(out: &mut String, label: &str, point: &[Exact], coordinates: &Coordinat
 /// Regions that are told unless all are asked for.
 const REGIONS: usize = 2;
 
-fn describe_remains(out: &mut String, remains: &Remains, coordinates: &Coordinates, verbose: bool) {
+fn describe_remains(
+    out: &mut String,
+    remains: &Remains,
+    coordinates: &Coordinates,
+    (verbose, toleranced): (bool, bool),
+) {
     let number = |x: f64| significant(x, 3);
     out.push('\n');
     labelled(out, "why", &remains.reason);
@@ -381,7 +386,9 @@ fn describe_remains(out: &mut String, remains: &Remains, coordinates: &Coordinat
     labelled(out, "open", &format!("{boxes_there} in {regions}: {volume}{share} of the workspace"));
     if let Some(worst) = &remains.worst_box {
         let margin = number(worst.margin);
-        let text = format!("{}: relative margin {margin} at its centre", worst.requirement);
+        let machine = if toleranced { ", of the middle machine" } else { "" };
+        let text =
+            format!("{}: relative margin {margin} at its centre{machine}", worst.requirement);
         labelled(out, "worst box", &text);
         extent(out, &worst.min, &worst.max, coordinates);
     }

@@ -3,12 +3,13 @@
 use crate::support::Folder;
 use serde_json::{json, Value};
 
-const DESIGNS: [&str; 5] = [
+const DESIGNS: [&str; 6] = [
     "orthoglide-312.toml",
     "orthoglide-310.toml",
     "orthoglide-tie.toml",
     "orthoglide-joint-range.toml",
     "rotary-delta-angle-refuted.toml",
+    "star-singular.toml",
 ];
 
 /// A definition of the schema, the arguments of a command, and its exit code, in order: later ones
@@ -27,6 +28,7 @@ const COMMANDS: &[(&str, &[&str], i32)] = &[
     ("show", &["show", "orthoglide-310.cert.json"], 0),
     ("report", &["report", "orthoglide-312.cert.json", "--svg", "figures"], 0),
     ("bounds", &["bounds", "orthoglide-312.toml", "--relative", "0.01", "-o", "."], 0),
+    ("bounds", &["bounds", "star-singular.toml"], 3),
     ("postulate", &["postulate", "--psi", "2", "-o", "postulate.cert.json"], 0),
     ("paper", &["paper"], 0),
     ("design", &["design", "--psi-max", "2", "--cube", "200"], 0),

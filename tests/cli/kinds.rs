@@ -192,10 +192,10 @@ fn machines_that_are_singular_at_every_pose_are_refuted_with_the_reason() {
         assert!(found, "{}", run.stdout);
         folder.run(&["check", "d.cert.json", "--design", "d.toml"]).exits(1);
         folder.run(&["check", "d.cert.json"]).says(&["the columns of M are linearly dependent"]);
-        folder
-            .run(&["bounds", "d.toml"])
-            .exits(3)
-            .says(&["a singularity, or out of reach, inside"]);
+        folder.run(&["bounds", "d.toml"]).exits(3).says(&[
+            "a singularity, or out of reach, inside",
+            "inside M is singular at P, exactly",
+        ]);
         folder.run(&["report", "d.cert.json"]).exits(1);
         let run = folder.run(&["limit", "d.toml", "workspace.max.2"]).exits(3);
         run.says(&["no parallel singularity"]);

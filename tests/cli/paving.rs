@@ -188,7 +188,10 @@ fn what_is_taken_up_is_as_fine_as_what_is_grown() {
 fn a_design_or_a_strangers_file_is_no_unfinished_paving() {
     let folder = Folder::new();
     folder.write("q.part", DESIGN);
-    folder.run(&["pave", "q.part", "-o", "q"]).exits(2).complains(&["--output", "is a file that is read"]);
+    folder
+        .run(&["pave", "q.part", "-o", "q"])
+        .exits(2)
+        .complains(&["--output", "is a file that is read"]);
     folder.run(&["pave", "q.part", "-o", "./q"]).exits(2);
     folder.write("d.toml", DESIGN);
     folder.write("d.paving.part", "a letter");

@@ -9,7 +9,7 @@ use nalgebra::Matrix3;
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 use orthocert::exact::Exact;
-use orthocert::search::solver::enclose::{enclose, is_singular, NotEnclosed};
+use orthocert::search::solver::enclose::{enclose, singular, NotEnclosed};
 use orthocert::search::solver::extremes::Extreme as Bounded;
 use orthocert::search::solver::sample::Sampler;
 use orthocert::search::{Budget, Control};
@@ -260,9 +260,9 @@ pub fn same_extremes(name: &str, claim: &Machine, firmware: &dyn Firmware) -> Ex
     let cancel = AtomicBool::new(false);
     let mut control = Control { cancel: &cancel, progress: &mut |_| {} };
     let budget = Budget { max_boxes: 20_000, deadline: None };
-    match is_singular(&claim.kernel, budget, &mut control) {
-        Ok(false) => {}
-        Ok(true) => return Extremes::Singular,
+    match singular(&claim.kernel, budget, &mut control) {
+        Ok(None) => {}
+        Ok(Some(_)) => return Extremes::Singular,
         Err(error) => panic!("{name}: {error}"),
     }
     let region = Region::of(claim);

@@ -48,12 +48,15 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let claim = &design.claim;
     let budget = effort.budget_or(effort::boxes_of(claim, BOXES), started)?;
     interrupt::grant();
-    let rows = search::rows(claim, &relative, arguments, budget)?;
+    let (rows, singular) = search::rows(claim, &relative, arguments, budget)?;
     match effort.format {
         Format::Json => {
             let mut answer = serde_json::json!({ "bounds": rows });
             if let Some(unit) = design.unit {
                 answer["length_unit"] = unit.into();
+            }
+            if let Some(found) = &singular {
+                answer["counterexample"] = serde_json::to_value(found).map_err(Failure::input)?;
             }
             if interrupt::is_cancelled() {
                 answer["interrupted"] = true.into();
@@ -61,7 +64,8 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
             print::json(&answer)?;
         }
         Format::Text => {
-            print::answer(&text::text(&rows, &design, &relative, effort.quiet, started))?
+            let table = (&rows[..], singular.as_ref());
+            print::answer(&text::text(table, &design, &relative, effort.quiet, started))?
         }
     }
     let complete = rows.iter().all(|row| row.not_enclosed.is_none());

@@ -3,7 +3,8 @@
 use super::rows::{exact_rows, Row};
 use super::Arguments;
 use crate::cli::{interrupt, Failure};
-use crate::search::solver::enclose::{is_singular, Enclosed, NotEnclosed, Sought};
+use crate::report::{counterexample, Counterexample};
+use crate::search::solver::enclose::{self, Enclosed, NotEnclosed, Sought};
 use crate::search::solver::extremes::Extreme;
 use crate::search::solver::sector;
 use crate::search::{turns, Budget, Control};
@@ -120,7 +121,7 @@ pub(super) fn rows(
     relative: &BigRational,
     arguments: &Arguments,
     budget: Budget,
-) -> Result<Vec<Row>, Failure> {
+) -> Result<(Vec<Row>, Option<Counterexample>), Failure> {
     let problem = Problem::new(claim).map_err(Failure::input)?;
     let angular = problem.legs.iter().any(Leg::is_angular);
     let extremes = Extreme::of(claim, problem.legs.len()).into_iter();
@@ -133,16 +134,16 @@ pub(super) fn rows(
     let count = questions.len();
     let own = budget.shared(turns(count) + 1);
     let singular =
-        bar.run("singularities", count + 1, |control| is_singular(claim, own, control))?;
+        bar.run("singularities", count + 1, |control| enclose::singular(claim, own, control))?;
     let asked = |(number, question): (usize, Question)| {
         let name = format!("{} of {count}, {}", number + 1, question.name());
         Asked { question, name, ends: Vec::new(), had: Duration::ZERO, rows: None }
     };
     let mut all: Vec<Asked> = questions.into_iter().enumerate().map(asked).collect();
-    let error = || match (singular, interrupt::is_cancelled()) {
-        (true, _) => Some(NotEnclosed::Singular),
-        (false, true) => Some(NotEnclosed::Cancelled),
-        (false, false) => None,
+    let error = || match (&singular, interrupt::is_cancelled()) {
+        (Some(_), _) => Some(NotEnclosed::Singular),
+        (None, true) => Some(NotEnclosed::Cancelled),
+        (None, false) => None,
     };
     let told = |question: &Question, ends: &[Ended]| {
         let rows = question.rows(claim, angular).into_iter().zip(ends.iter().cloned());
@@ -194,7 +195,7 @@ pub(super) fn rows(
     for Asked { question, ends, rows: own, .. } in all {
         rows.extend(own.map_or_else(|| told(&question, &ends), Ok)?);
     }
-    Ok(rows)
+    Ok((rows, singular.as_deref().and_then(counterexample)))
 }
 
 /// Those whose time was up and which can have twice that of what is left, or half of it if they are not enclosed: first

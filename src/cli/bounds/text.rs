@@ -5,8 +5,8 @@ use crate::cli::interrupt;
 use crate::design::Design;
 use crate::exact::decimal::{approximate, outward, rounded, Toward};
 use crate::exact::Exact;
-use crate::report::text::{duration, wrap, WIDTH};
-use crate::report::{placed, point_text, pose_text};
+use crate::report::text::{duration, labelled, wrap, WIDTH};
+use crate::report::{placed, point_text, pose_text, Counterexample};
 use crate::search::solver::value::{coordinates, in_length, listed, with_unit};
 use num_rational::BigRational;
 use std::fmt::Write;
@@ -46,7 +46,7 @@ fn lines(rows: &[Row]) -> Vec<Line<'_>> {
 
 /// The table, where each extreme is reached, and what its columns are.
 pub(super) fn text(
-    rows: &[Row],
+    (rows, singular): (&[Row], Option<&Counterexample>),
     design: &Design,
     asked: &BigRational,
     quiet: bool,
@@ -107,6 +107,10 @@ pub(super) fn text(
         return out;
     }
     out.push('\n');
+    if let Some(found) = singular {
+        labelled(&mut out, "inside", &found.value);
+        labelled(&mut out, "at P", &found.at());
+    }
     if rows.iter().any(|row| row.not_enclosed.is_none()) {
         let asked = rounded(asked, 2, Toward::Above);
         let text = format!(

@@ -28,7 +28,7 @@ pub use signed::signed;
 use crate::exact::decimal::{rounded, Toward};
 use crate::exact::Exact;
 use crate::report::{Counterexample, Facts, Outcome, Report};
-use crate::search::solver::enclose::{enclose, is_singular, reached, Enclosed, NotEnclosed};
+use crate::search::solver::enclose::{enclose, reached, singular, Enclosed, NotEnclosed};
 use crate::search::solver::value::Coordinates;
 use crate::search::solver::{sector, Verification};
 use crate::search::{at_once, turns, Budget, Control, Steps};
@@ -165,7 +165,8 @@ pub fn summary(
         true => Ok(false),
         false => {
             let own = budget.shared(left);
-            steps.next(control, left, |control| is_singular(claim, own, control))
+            let found = steps.next(control, left, |control| singular(claim, own, control));
+            found.map(|found| found.is_some())
         }
     };
     let singular = match singular {

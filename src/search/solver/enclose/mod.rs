@@ -71,20 +71,22 @@ impl From<ClaimError> for NotEnclosed {
     }
 }
 
-/// Whether some machine of the claim has a singularity, or a point out of reach, in its workspace:
-/// then quantities have no extremes there.
+/// The refutation that some machine of the claim has a singularity, or a point out of reach, in its
+/// workspace: then quantities have no extremes there.
 ///
 /// # Errors
 /// If the claim is not well formed, or the search was cancelled.
-pub fn is_singular(
+pub fn singular(
     claim: &MachineClaim,
     budget: Budget,
     control: &mut Control<'_>,
-) -> Result<bool, NotEnclosed> {
+) -> Result<Option<Box<Certificate>>, NotEnclosed> {
     let regular = alone(claim, defining(claim).into_iter().collect());
     match verify(&regular, budget, control)?.answer {
-        Answer::Decided { accepted, .. } => Ok(accepted.verdict == Verdict::Refuted),
-        Answer::Undecided(_) => Ok(false),
+        Answer::Decided { accepted, certificate } => {
+            Ok(Some(certificate).filter(|_| accepted.verdict == Verdict::Refuted))
+        }
+        Answer::Undecided(_) => Ok(None),
         Answer::Cancelled => Err(NotEnclosed::Cancelled),
     }
 }

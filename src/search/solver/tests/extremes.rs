@@ -6,7 +6,7 @@ use crate::design::Design;
 use crate::questions::frontier::Bracket;
 use crate::questions::tolerance::{widest, Kind, Known, Scheme};
 use crate::search::solver::enclose::{
-    enclose, is_singular, loosest, narrowest, Enclosed, NotEnclosed, Sought,
+    enclose, loosest, narrowest, singular, Enclosed, NotEnclosed, Sought,
 };
 use crate::search::solver::extremes::Extreme;
 use crate::search::solver::value::Bounded;
@@ -122,7 +122,7 @@ fn a_singular_machine_has_none() {
     let cancel = AtomicBool::new(false);
     let mut control = Control { cancel: &cancel, progress: &mut |_| {} };
     let budget = Budget { max_boxes: 1000, deadline: None };
-    assert!(is_singular(&claim, budget, &mut control).expect("a claim"));
+    assert!(singular(&claim, budget, &mut control).expect("a claim").is_some());
 }
 
 #[test]
