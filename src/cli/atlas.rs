@@ -1,7 +1,7 @@
 //! `orthocert atlas`, and what it has in common with a merge of parts of an atlas.
 
 use super::effort::{time, Work};
-use super::{certify, input, interrupt, print, Failure, Status};
+use super::{certify, input, interrupt, pave, print, Failure, Format, Status};
 use crate::cli::progress::Bar;
 use crate::design::{AtlasDesign, Objective};
 use crate::exact::decimal::{counted, grouped};
@@ -81,7 +81,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let grown = map(&design, &mut kept, deadline, arguments.work.quiet);
     let cells = match grown {
         Ok(top) => atlas::assemble(top, Vec::new()).ok_or(Failure::Defect)?,
-        Err(stopped) => return left(stopped, &kept, &folder),
+        Err(stopped) => return left(stopped, &kept, &folder, arguments.work.format),
     };
     let name = arguments.atlas.to_string_lossy().into_owned();
     let report =
@@ -112,22 +112,21 @@ fn kept(design: &AtlasDesign, folder: &Path, arguments: &Arguments) -> Result<Ke
 }
 
 /// What a run that did not end leaves.
-fn left(stopped: Stopped, kept: &Kept, folder: &Path) -> Result<Status, Failure> {
-    let (cells, share) = (grouped(kept.cells as u64), 100.0 * kept.share);
-    let part = unfinished(folder);
-    let status = match stopped.clone() {
-        Stopped::Cancelled => Err(Failure::Interrupted),
-        Stopped::Time => Ok(Status::Undecided),
+fn left(stopped: Stopped, kept: &Kept, folder: &Path, format: Format) -> Result<Status, Failure> {
+    let time_is_up = match stopped {
+        Stopped::Cancelled => false,
+        Stopped::Time => true,
         Stopped::Unkept(reason) => return Err(Failure::Output(reason)),
         Stopped::TooLarge => return Err(Failure::Input(stopped.to_string())),
     };
-    let why = if stopped == Stopped::Time { "the time was up: " } else { "" };
-    print::diagnostic(&format!(
-        "{why}{} holds what is done, {cells} cells, by which {share:.2} % of the box is decided; \
+    let (cells, share) = (grouped(kept.cells as u64), 100.0 * kept.share);
+    let part = unfinished(folder);
+    let held = format!(
+        "{} holds what is done, {cells} cells, by which {share:.2} % of the box is decided; \
          --resume takes it up",
         part.shown()
-    ));
-    status
+    );
+    pave::cancelled(time_is_up, &held, Some(&part), format)
 }
 
 /// Finds out, before the work, whether the map can be written there.

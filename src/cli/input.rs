@@ -38,6 +38,10 @@ pub fn tell_notes(design: &Design, path: Option<&Path>, quiet: bool) {
 
 /// The bytes of a certificate, one more than are admissible at most: the checker refuses those.
 pub fn certificate(path: &Path) -> Result<Vec<u8>, Failure> {
+    if path.is_dir() {
+        let accepted = "it is a folder; accepted: a certificate (a JSON file)";
+        return Err(Failure::Input(format!("{}: cannot be read: {accepted}", path.shown())));
+    }
     Ok(Begun::new(path)?.start)
 }
 
@@ -141,7 +145,7 @@ pub fn apart<P: AsRef<Path>>(
     inputs: impl IntoIterator<Item = P>,
 ) -> Result<(), Failure> {
     let own = identity(output);
-    if inputs.into_iter().any(|input| identity(input.as_ref()) == own) {
+    if inputs.into_iter().any(|input| identity(meant(input.as_ref())) == own) {
         let path = output.shown();
         let refused = format!("--output: {path} is a file that is read; accepted: another path");
         return Err(Failure::Input(refused));

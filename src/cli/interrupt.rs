@@ -30,27 +30,30 @@ pub fn listen() {
     drop(listening);
 }
 
-/// The flag that is set by a signal.
+/// The flag that is set by a signal, or [`at`] a time.
 pub fn cancelled() -> &'static AtomicBool {
     &CANCEL
 }
 
-/// Whether a signal has come.
+/// Whether it is set.
 pub fn is_cancelled() -> bool {
     CANCEL.load(Ordering::Relaxed)
 }
 
-/// Sets [`cancelled`] at this time, for work that looks at nothing else. Without a thread for it the work
-/// goes on, as without signals.
-pub fn at(deadline: Instant) {
-    let cancel = move || {
-        thread::sleep(deadline.saturating_duration_since(Instant::now()));
+/// Sets [`cancelled`] at this time, for work that looks at nothing else.
+pub fn at(deadline: Instant) -> Result<(), Failure> {
+    let left = deadline.saturating_duration_since(Instant::now());
+    if left.is_zero() {
         CANCEL.store(true, Ordering::Relaxed);
-    };
-    match deadline <= Instant::now() {
-        true => cancel(),
-        false => drop(thread::Builder::new().spawn(cancel)),
+        return Ok(());
     }
+    let waits = thread::Builder::new().spawn(move || {
+        thread::sleep(left);
+        CANCEL.store(true, Ordering::Relaxed);
+    });
+    waits.map(drop).map_err(|error| {
+        Failure::Output(format!("--timeout: no thread can be started to keep it: {error}"))
+    })
 }
 
 /// Gives the work five seconds to end by itself: for a command that still has something to write, and

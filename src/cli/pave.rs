@@ -14,6 +14,7 @@ use crate::search::paving::{
 use orthocert_kernel::claim::{MachineClaim, Orientation, Workspace};
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::paving::{names, Reader, Rejected, Subject};
+use serde::Serialize;
 use std::cmp::Ordering;
 use std::fs::{self, OpenOptions};
 use std::io::{BufRead, BufReader};
@@ -104,15 +105,23 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         input::not_taken_up(&part, b"{\"format\":\"orthocert-paving/", "paving")?;
     }
     effort::start_threads(arguments.threads)?;
-    deadline.into_iter().for_each(interrupt::at);
+    if let Some(deadline) = deadline {
+        interrupt::at(deadline)?;
+    }
     let mut bar = Bar::new("boxes", arguments.quiet);
     let resume = if arguments.resume { Resume::Yes } else { Resume::No };
     let paved = bar.run("", 2, |control| pave(claim, coordinates, &goal, &target, resume, control));
+    let time_is_up = || deadline.is_some_and(|time| time <= Instant::now());
     let paved = match paved {
         Ok(paved) => paved,
         Err(PaveError::Cancelled) => {
             drop(bar);
-            return cancelled(&part, deadline.is_some_and(|time| time <= Instant::now()));
+            let held = format!("{} holds what is done; --resume takes it up", part.shown());
+            return cancelled(time_is_up(), &held, Some(&part), arguments.format);
+        }
+        Err(PaveError::NotBegun) => {
+            drop(bar);
+            return cancelled(time_is_up(), "nothing was written", None, arguments.format);
         }
         Err(error @ (PaveError::Claim(_) | PaveError::Resume(..))) => {
             return Err(Failure::input(error))
@@ -142,21 +151,33 @@ pub fn answer(report: &PavingReport, format: Format, quiet: bool) -> Result<Stat
     Ok(if report.reached { Status::Done } else { Status::Undecided })
 }
 
-/// Of a run that did not end, says what is left of it.
-fn cancelled(part: &Path, time_is_up: bool) -> Result<Status, Failure> {
-    let why = if time_is_up { "the time was up: " } else { "" };
-    match part.exists() {
-        true => print::diagnostic(&format!(
-            "{why}{} holds what is done; --resume takes it up",
-            part.shown()
-        )),
-        false if time_is_up => print::diagnostic("the time was up before a box was written"),
-        false => {}
+/// The answer for scripts where the time was up.
+#[derive(Serialize)]
+struct Unfinished {
+    out_of_time: bool,
+    /// What `--resume` takes up.
+    part: Option<String>,
+}
+
+/// Tells what a run leaves that did not end.
+pub fn cancelled(
+    time_is_up: bool,
+    left: &str,
+    part: Option<&Path>,
+    format: Format,
+) -> Result<Status, Failure> {
+    if !time_is_up {
+        if part.is_some() {
+            print::diagnostic(left);
+        }
+        return Err(Failure::Interrupted);
     }
-    match time_is_up {
-        true => Ok(Status::Undecided),
-        false => Err(Failure::Interrupted),
+    print::diagnostic(&format!("the time was up: {left}"));
+    if format == Format::Json {
+        let part = part.map(|part| part.to_string_lossy().into_owned());
+        print::json(&Unfinished { out_of_time: true, part })?;
     }
+    Ok(Status::Undecided)
 }
 
 /// The claim over the box that `--box` says, where it does.

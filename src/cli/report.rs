@@ -54,19 +54,19 @@ const MAX_PAVING: u64 = 1 << 30;
 /// The answer for scripts.
 #[derive(Serialize)]
 #[serde(untagged)]
-enum Answer {
+enum Answer<'a> {
     Written {
         accepted: bool,
         verdict: Verdict,
         certificate_sha256: String,
-        files: Vec<Written>,
+        files: &'a [Written],
     },
     Paving {
         accepted: bool,
         inner_share: Share,
         boundary_share: Share,
         paving_sha256: String,
-        files: Vec<Written>,
+        files: &'a [Written],
     },
 }
 
@@ -116,10 +116,9 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let pictures: Vec<&Picture> = page.pictures().collect();
     let files = arguments.write(&target, &page.html(), &pictures)?;
     let verdict = accepted.verdict;
-    let text = listed(&verdict.to_string(), &files);
     let certificate_sha256 = sha256(&bytes);
-    let answer = Answer::Written { accepted: true, verdict, certificate_sha256, files };
-    print::told(arguments.format, &answer, || text)?;
+    let answer = Answer::Written { accepted: true, verdict, certificate_sha256, files: &files };
+    print::told(arguments.format, &answer, || listed(&verdict.to_string(), &files))?;
     Ok(Status::Decided(verdict))
 }
 
@@ -150,15 +149,14 @@ fn of_paving(arguments: &Arguments, bytes: &[u8], target: &Path) -> Result<Statu
     })?;
     let pictures: Vec<&Picture> = page.pictures().collect();
     let files = arguments.write(target, &page.html(), &pictures)?;
-    let text = listed("paving", &files);
     let answer = Answer::Paving {
         accepted: true,
         inner_share: accepted.summary.inner_share,
         boundary_share: accepted.summary.boundary_share,
         paving_sha256: sha256(bytes),
-        files,
+        files: &files,
     };
-    print::told(arguments.format, &answer, || text)?;
+    print::told(arguments.format, &answer, || listed("paving", &files))?;
     Ok(Status::Done)
 }
 

@@ -23,6 +23,8 @@ const VALUE_DIGITS: u32 = 9;
 const PLACE_DIGITS: u32 = 6;
 /// Significant digits of how the middle of a box is turned.
 const TURN_DIGITS: u32 = 4;
+/// Longest name of an open requirement that stands on a line with its boxes.
+const OPEN_NAME: usize = 44;
 /// Longest exact coordinate that stands on a line with others.
 const SHORT_COORDINATE: usize = 20;
 
@@ -408,27 +410,42 @@ fn describe_remains(
         let how = if verbose { "" } else { ": --verbose" };
         let _ = writeln!(out, "    and {} smaller ones{how}", grouped(hidden as u64));
     }
-    let alike = |a: &OpenRequirement, b: &OpenRequirement| (a.reason, a.help) == (b.reason, b.help);
-    for open in remains.open.chunk_by(alike) {
-        out.push('\n');
-        let head = ["requirement", "open on", "of the workspace"].map(str::to_owned);
-        let cells = |own: &OpenRequirement| {
-            let name = format!("{}: {}", own.obligation, own.requirement);
-            [name, boxes(own.boxes), percent(own.share)]
+    let mut groups: Vec<Vec<&OpenRequirement>> = Vec::new();
+    for open in &remains.open {
+        let alike = |group: &&mut Vec<&OpenRequirement>| {
+            (group[0].reason, group[0].help) == (open.reason, open.help)
         };
-        columns(out, &[head].into_iter().chain(open.iter().map(cells)).collect::<Vec<_>>());
-        wrap(out, open[0].reason, 4);
-        wrap(out, &format!("what would help: {}", open[0].help), 4);
+        match groups.iter_mut().find(alike) {
+            Some(group) => group.push(open),
+            None => groups.push(vec![open]),
+        }
+    }
+    for group in groups {
+        out.push('\n');
+        open_rows(out, &group);
+        wrap(out, group[0].reason, 4);
+        wrap(out, &format!("what would help: {}", group[0].help), 4);
     }
 }
 
-/// Lines of which each column but the last is as wide as its widest.
-fn columns<const N: usize>(out: &mut String, rows: &[[String; N]]) {
-    let width = |k: usize| rows.iter().map(|row| row[k].chars().count()).max().unwrap_or(0);
-    let widths: [usize; N] = std::array::from_fn(width);
-    for row in rows {
-        let cells = row.iter().zip(widths).map(|(cell, width)| format!("  {cell:width$}"));
-        let _ = writeln!(out, "{}", cells.collect::<String>().trim_end());
+/// Requirements with the boxes on which they are open. A name that does not fit stands on lines of its own.
+fn open_rows(out: &mut String, open: &[&OpenRequirement]) {
+    let name = |own: &&OpenRequirement| format!("{}: {}", own.obligation, own.requirement);
+    let names: Vec<String> = open.iter().map(name).collect();
+    let fits = |name: &&str| name.chars().count() <= OPEN_NAME;
+    let width = names.iter().map(String::as_str).filter(fits).chain(["requirement"]);
+    let width = width.map(|name| name.chars().count()).max().unwrap_or(0);
+    let mut line = |name: &str, boxes: &str, share: &str| {
+        let mut name = name;
+        if name.chars().count() > width {
+            wrap(out, name, 2);
+            name = "";
+        }
+        let _ = writeln!(out, "  {name:width$}  {boxes:14}  {share}");
+    };
+    line("requirement", "open on", "of the workspace");
+    for (own, name) in open.iter().zip(&names) {
+        line(name, &boxes(own.boxes), &percent(own.share));
     }
 }
 

@@ -33,6 +33,7 @@ const COMMANDS: &[(&str, &[&str], i32)] = &[
     ("paper", &["paper"], 0),
     ("design", &["design", "--psi-max", "2", "--cube", "200"], 0),
     ("pave", &["pave", "region.toml", "--volume-gap", "0.5"], 0),
+    ("unfinished", &["pave", "region.toml", "--timeout", "0", "-o", "none.paving"], 3),
     ("check_paving", &["check", "region.paving"], 0),
     (
         "split",
@@ -46,6 +47,7 @@ const COMMANDS: &[(&str, &[&str], i32)] = &[
     ("largest_cube", &["largest-cube", "region.toml", "--side", "100"], 0),
     ("pave", &["merge", "job", "-o", "merged.paving"], 0),
     ("atlas", &["atlas", "map.toml"], 0),
+    ("unfinished", &["atlas", "map.toml", "--timeout", "0", "-o", "none"], 3),
     ("report_paving", &["report", "region.paving"], 0),
     ("largest_cube", &["largest-cube", "region.toml", "--side", "250"], 1),
     ("tolerance", &["tolerance", "orthoglide-312.toml", "--on", "leg_length", "--gap", "0.5"], 0),

@@ -234,7 +234,7 @@ fn a_paving_out_of_time_exits_3_and_is_taken_up_to_the_same_bytes() {
         let resume = if resume { &["--resume"][..] } else { &[] };
         folder.run(&[&pave[..], &["--timeout", &timeout], resume].concat())
     };
-    out_of_time(0, false).exits(3).complains(&["the time was up before a box was written"]);
+    out_of_time(0, false).exits(3).complains(&["the time was up: nothing was written"]);
     assert_eq!(folder.names(), ["d.toml"]);
     for k in 0.. {
         let resume = folder.names().contains(&"d.paving.part".to_owned());

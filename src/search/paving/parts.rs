@@ -102,7 +102,9 @@ impl Parts {
         let depth = root.depth + BELOW;
         let segments = grower.segments(root, depth, &mut Tally::default())?;
         for window in segments.chunks(WINDOW) {
-            for (bytes, _) in grower.grow_all(window)? {
+            let (grown, ended) = grower.grow_all(window);
+            ended?;
+            for (bytes, _) in grown {
                 to(&bytes)?;
             }
         }

@@ -33,6 +33,9 @@ pub enum PaveError {
     /// It was cancelled; what is written can be taken up again.
     #[error("interrupted")]
     Cancelled,
+    /// It was cancelled before anything was written.
+    #[error("interrupted")]
+    NotBegun,
     /// The claim cannot be paved.
     #[error("{0}")]
     Claim(Rejected),
@@ -128,6 +131,10 @@ pub fn pave(
         Resume::Yes => Some(taken_up(&part)?),
         Resume::No => None,
     };
+    let not_begun = |error| match error {
+        PaveError::Cancelled => PaveError::NotBegun,
+        error => error,
+    };
     let mut known = None;
     let mut depth = match &held {
         Some(file) => {
@@ -140,7 +147,7 @@ pub fn pave(
             depth
         }
         None => {
-            let (depth, segments) = planned(&decider, goal, control)?;
+            let (depth, segments) = planned(&decider, goal, control).map_err(not_begun)?;
             known = segments;
             depth
         }
@@ -149,7 +156,8 @@ pub fn pave(
     let mut steps = Steps::default();
     loop {
         let header = header(claim, coordinates, depth);
-        let mut pass = Pass::new(&decider, header, &part, control.cancel, known.take())?;
+        let pass = Pass::new(&decider, header, &part, control.cancel, known.take());
+        let mut pass = if held.is_none() { pass.map_err(not_begun)? } else { pass? };
         let file = match held {
             Some(ref file) => file,
             None => held.insert(output::open_locked(&part, true).map_err(PaveError::Output)?),
@@ -289,19 +297,23 @@ impl<'a> Pass<'a> {
         let most = if self.grower.decider.is_for_all() { WINDOW_FOR_ALL } else { WINDOW };
         while done < self.segments.len() || !grown.is_empty() {
             let window = &self.segments[done..self.segments.len().min(done + most)];
-            let (written, next) = std::thread::scope(|scope| {
+            let (before, (next, ended)) = std::thread::scope(|scope| {
                 let writer = scope.spawn(|| written(file, &grown));
                 let next = self.grower.grow_all(window);
                 (writer.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)), next)
             });
-            written.map_err(|e| self.io(e))?;
-            grown = next?;
+            before.map_err(|e| self.io(e))?;
+            grown = next;
             grown.iter().for_each(|(bytes, _)| self.sum.update(bytes));
-            done += window.len();
+            done += grown.len();
             self.boxes += grown.iter().map(|(_, boxes)| boxes).sum::<u64>();
             let share = done as f64 / self.segments.len() as f64;
             let boxes = usize::try_from(self.boxes).unwrap_or(usize::MAX);
             (control.progress)(Progress { boxes, share });
+            if ended.is_err() {
+                written(file, &grown).map_err(|e| self.io(e))?;
+            }
+            ended?;
         }
         Ok(())
     }

@@ -70,8 +70,9 @@ impl Grower<'_> {
         Ok(())
     }
 
-    /// The bytes of segments, which are grown side by side, and the cells tried for each.
-    pub fn grow_all(&self, segments: &[Segment]) -> Result<Vec<Grown>, Cancelled> {
+    /// The bytes of segments, which are grown side by side, and the cells tried for each; cancelled, of
+    /// those before the first that is not whole.
+    pub fn grow_all(&self, segments: &[Segment]) -> (Vec<Grown>, Result<(), Cancelled>) {
         let grown = |segment: &Segment| match segment {
             Segment::Known(bytes) => Ok((bytes.clone(), 0)),
             Segment::Subtree(root) => {
@@ -81,7 +82,12 @@ impl Grower<'_> {
                 Ok((bytes, tally.boxes))
             }
         };
-        segments.par_iter().with_max_len(1).map(grown).collect()
+        let all: Vec<Result<Grown, Cancelled>> =
+            segments.par_iter().with_max_len(1).map(grown).collect();
+        let count = all.len();
+        let whole: Vec<Grown> = all.into_iter().map_while(Result::ok).collect();
+        let ended = if whole.len() == count { Ok(()) } else { Err(Cancelled) };
+        (whole, ended)
     }
 
     /// The tree below `root`, with the subtrees below `coarse` left to be grown.
@@ -244,7 +250,7 @@ mod tests {
             return (bytes, tally);
         };
         let segments = grower.segments(Root::WHOLE, grower.seen(at), &mut tally).unwrap();
-        for (own, boxes) in grower.grow_all(&segments).unwrap() {
+        for (own, boxes) in grower.grow_all(&segments).0 {
             bytes.extend(own);
             tally.boxes += boxes;
         }

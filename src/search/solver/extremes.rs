@@ -4,7 +4,6 @@ use super::value::{defining, name_of, sought, Bounded};
 use crate::exact::arithmetic::number;
 use crate::exact::Exact;
 use num_rational::BigRational;
-use num_traits::{One, Zero};
 use orthocert_kernel::claim::{Bound, MachineClaim, Mechanism, Requirement, Workspace};
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
@@ -159,8 +158,8 @@ impl Extreme {
         all
     }
 
-    /// The tightest rational bound that a claim itself has for it.
-    pub fn required_bound(&self, claim: &MachineClaim) -> Option<BigRational> {
+    /// The tightest bound that a claim itself has for it.
+    fn required_of(&self, claim: &MachineClaim) -> Option<Exact> {
         let one = &self.bounded.requirement;
         let is_speed = one.quantity == "joint_speed";
         let is_it = |own: &&Requirement| {
@@ -170,30 +169,38 @@ impl Extreme {
         };
         let of = |own: &Requirement| {
             if self.bounded.angle {
-                return rational(own.given.get("max_angle")?.first()?);
+                return Exact::of(own.given.get("max_angle")?.first()?);
             }
             let x = match (&own.bound, &one.bound) {
-                (Bound::Min(x) | Bound::Within([x, _]), Bound::Min(_)) => x,
-                (Bound::Max(x) | Bound::Within([_, x]), Bound::Max(_)) => x,
+                (Bound::Min(x) | Bound::Within([x, _]), Bound::Min(_)) => Exact::of(x)?,
+                (Bound::Max(x) | Bound::Within([_, x]), Bound::Max(_)) => Exact::of(x)?,
                 _ => return None,
             };
+            if own.given == one.given {
+                return Some(x);
+            }
             // It is linear in the tool's speed.
-            let tool = |own: &Requirement| match is_speed {
-                true => rational(own.given.get("tool")?.first()?).filter(|x| !x.is_zero()),
-                false => Some(BigRational::one()),
-            };
-            Some(rational(x)? * tool(one)? / tool(own)?)
+            let tool = |own: &Requirement| Exact::of(own.given.get("tool")?.first()?);
+            x.times(tool(one)?).ok()?.over(tool(own)?).ok()
         };
         let all = claim.require.iter().filter(is_it).filter_map(of);
-        all.reduce(if self.is_greatest() { BigRational::min } else { BigRational::max })
+        all.reduce(|known, own| if self.is_tighter(&own, &known) { own } else { known })
+    }
+
+    fn is_tighter(&self, one: &Exact, other: &Exact) -> bool {
+        let tighter = if self.is_greatest() { Ordering::Less } else { Ordering::Greater };
+        one.compare(other) == Some(tighter)
+    }
+
+    /// The tightest bound that a claim itself has for it, if it is rational.
+    pub fn required_bound(&self, claim: &MachineClaim) -> Option<BigRational> {
+        self.required_of(claim)?.as_rational().cloned()
     }
 
     /// Whether a bound says more than what the claim itself demands.
     pub fn is_margin(&self, claim: &MachineClaim, bound: &BigRational) -> bool {
-        self.required_bound(claim).is_none_or(|own| match self.is_greatest() {
-            true => *bound < own,
-            false => *bound > own,
-        })
+        let bound = Exact::Rational(bound.clone());
+        self.required_of(claim).is_none_or(|own| self.is_tighter(&bound, &own))
     }
 
     /// A bound with which the claim is well formed.

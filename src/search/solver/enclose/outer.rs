@@ -103,7 +103,7 @@ impl<'a> Attempts<'a> {
                 Err(_) => Ok(Attempt::Undecided(Stop::Hopeless)),
             };
         }
-        if self.is_worse(claim, (&problem, &sampler), &found.open)? {
+        if self.take_worse(claim, (&problem, &sampler), &found.open)? {
             return Ok(Attempt::Worse);
         }
         // Boxes of platforms that turn are costly each: looser bounds go on from the tree of this one, unless it has
@@ -136,9 +136,9 @@ impl<'a> Attempts<'a> {
         parts(true)
     }
 
-    /// Whether the quantity goes beyond the bound at a centre of these boxes, and farther than at the place known,
-    /// which is then that centre.
-    fn is_worse(
+    /// Takes a centre of these boxes for the place known, if the quantity goes beyond the bound there, and farther
+    /// than at that place; tells whether there is one.
+    fn take_worse(
         &mut self,
         claim: &MachineClaim,
         (problem, sampler): (&Problem, &Sampler<'_>),
