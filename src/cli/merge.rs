@@ -118,7 +118,7 @@ fn paved(
     output::probe(&target)?;
     let paved =
         tree.write(&task, &target, interrupt::cancelled()).map_err(|error| match error {
-            PaveError::Cancelled => Failure::Interrupted,
+            PaveError::Cancelled(_) => Failure::Interrupted,
             PaveError::Defect(_) | PaveError::Coarse(_) => Failure::Rejected(error.to_string()),
             error => Failure::Output(error.to_string()),
         })?;

@@ -99,7 +99,7 @@ fn orthoglide(table: &Table<'_>, setting: &Setting<'_>) -> Result<Machine, Desig
         (None, None) => zero(),
         (None, Some(range)) => {
             let found = "a joint range without mechanism.base";
-            let accepted = "joint_range together with mechanism.base: where rho = 0 on each axis";
+            let accepted = "joint_range together with mechanism.base: where rho = 0 on each axis, such as -384";
             return Err(range.error(Defect::Conflict, found, accepted));
         }
     };

@@ -57,12 +57,15 @@ pub use sources::Sources;
 pub use template::{template, OTHER_NAMES, TEMPLATES};
 pub use variable::Variable;
 
+use crate::exact::decimal::readable;
 use crate::exact::Exact;
 use crate::files::read;
 use description::{Bound, Demand, Description, Mechanism};
 use document::{Document, Names, Table};
 use mechanism::Setting;
 use orthocert_kernel::claim as kernel;
+use orthocert_kernel::number::Expression;
+use std::cmp::Ordering;
 use std::path::Path;
 use toml::de::DeTable;
 
@@ -167,7 +170,24 @@ impl Design {
                 "{key}, line {line}: the same as workspace.max.{at}, so that the workspace is flat"
             ))
         });
-        UNASKED.iter().filter_map(note).chain(flat).collect()
+        let small = |(key, degrees): (&str, &Expression)| {
+            let degrees = Exact::of(degrees)?;
+            let is_small = degrees.sign() == Some(1)
+                && degrees.compare(&Exact::integer(1)) == Some(Ordering::Less);
+            let key = format!("workspace.orientation.{key}");
+            let line = self.sources.position(&key)?.line;
+            let text = readable(&degrees);
+            is_small.then(|| format!("{key}, line {line}: {text} degrees, less than one"))
+        };
+        let angles = match &self.claim.orientation {
+            Some(kernel::Orientation::Angle(angle)) => vec![("angle", angle)],
+            Some(kernel::Orientation::Tilt { tilt, torsion }) => {
+                vec![("tilt", tilt), ("torsion", torsion)]
+            }
+            Some(_) | None => Vec::new(),
+        };
+        let small = angles.into_iter().filter_map(small);
+        UNASKED.iter().filter_map(note).chain(flat).chain(small).collect()
     }
 
     /// The paper's prototype: the Orthoglide of a cube of side 200 with `psi_max = 2`.

@@ -61,6 +61,11 @@ pub(super) fn without_unit(text: &str, at: usize) -> Option<String> {
     // The tolerance may have the unit, too.
     let number: Vec<&str> = text.split(written).map(str::trim).collect();
     let number = number.join(" ").trim_end().to_owned();
+    // Of a quotient of units nothing of the unit is left.
+    let number = match number.contains(char::is_alphabetic) && !number.contains("sqrt") {
+        true => text.get(..at)?.trim().to_owned(),
+        false => number,
+    };
     let unit = UNITS.into_iter().find(|unit| *unit == written);
     match unit.or_else(|| otherwise(&written.to_lowercase(), &UNITS)) {
         Some(unit) => Some(format!(
@@ -203,6 +208,7 @@ mod tests {
             ("333 mm ± 0.05", 4, "\"333 ± 0.05\", and unit = \"mm\""),
             ("333 millimeters", 4, "\"333\", and unit = \"mm\""),
             ("5 µm", 2, "\"5\", and unit = \"um\""),
+            ("1000 mm/s", 5, "\"1000\", and unit = \"mm\""),
             ("45°", 2, "\"45\", in degrees"),
         ] {
             let found = without_unit(text, at).unwrap_or_default();

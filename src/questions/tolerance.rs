@@ -342,7 +342,7 @@ pub fn widest(
     let known = match (known.ends.certified, own) {
         (None, Some(own)) => {
             let own_claim = scheme.claim(claim, &own);
-            let found = solver::proof_about(&own_claim, point, budget.shared(5), control).ok();
+            let found = solver::proof_about(&own_claim, point, budget.shared(2), control).ok();
             unless_cancelled(control, found)?.map(|certificate| (own, certificate))
         }
         (known, _) => known,

@@ -240,10 +240,15 @@ impl Facts<'_> {
             let mut parts = worst.iter().filter(|found| is_accuracy(found.quality));
             parts.any(|found| found.margin > AMPLE)
         };
+        let is_wide = |margin| margin > TIE && is_accuracy(quality) && is_ample();
         match (stop, margin) {
-            (_, Some(margin)) if margin > TIE && is_accuracy(quality) && is_ample() => {
+            (Stop::Exhausted | Stop::Hopeless, Some(margin)) if is_wide(margin) => {
                 "smaller bounds: within them there is to be no second pose, which is the harder to show \
-                 the more room they leave; twice the worst found is enough"
+                 the more room they leave"
+            }
+            (_, Some(margin)) if is_wide(margin) => {
+                "a larger budget: --max-boxes, --timeout; or smaller bounds: within them there is to be no \
+                 second pose, which is the harder to show the more room they leave"
             }
             (_, Some(margin)) if margin.abs() <= TIE => {
                 "it holds with equality, or nearly, somewhere; no splitting decides a tie: give the \

@@ -385,7 +385,12 @@ fn describe_remains(
         _ => String::new(),
     };
     let (boxes_there, share) = (boxes(remains.boxes), percent(remains.share));
-    labelled(out, "open", &format!("{boxes_there} in {regions}: {volume}{share} of the workspace"));
+    // Orientations are a part of the box around them.
+    let whole = match coordinates.are_of_axis() {
+        true => "the box around the workspace",
+        false => "the workspace",
+    };
+    labelled(out, "open", &format!("{boxes_there} in {regions}: {volume}{share} of {whole}"));
     if let Some(worst) = &remains.worst_box {
         let margin = number(worst.margin);
         let machine = if toleranced { ", of the middle machine" } else { "" };
@@ -397,7 +402,7 @@ fn describe_remains(
     out.push_str("\n  regions (neighbouring boxes merged)\n");
     let told = if verbose { remains.regions.len() } else { REGIONS };
     for region in remains.regions.iter().take(told) {
-        let text = format!("{}, {} of the workspace", boxes(region.boxes), percent(region.share));
+        let text = format!("{}, {} of {whole}", boxes(region.boxes), percent(region.share));
         wrap(out, &text, 4);
         extent(out, &region.min, &region.max, coordinates);
     }
@@ -422,14 +427,14 @@ fn describe_remains(
     }
     for group in groups {
         out.push('\n');
-        open_rows(out, &group);
+        open_rows(out, &group, whole);
         wrap(out, group[0].reason, 4);
         wrap(out, &format!("what would help: {}", group[0].help), 4);
     }
 }
 
 /// Requirements with the boxes on which they are open. A name that does not fit stands on lines of its own.
-fn open_rows(out: &mut String, open: &[&OpenRequirement]) {
+fn open_rows(out: &mut String, open: &[&OpenRequirement], whole: &str) {
     let name = |own: &&OpenRequirement| format!("{}: {}", own.obligation, own.requirement);
     let names: Vec<String> = open.iter().map(name).collect();
     let fits = |name: &&str| name.chars().count() <= OPEN_NAME;
@@ -443,7 +448,7 @@ fn open_rows(out: &mut String, open: &[&OpenRequirement]) {
         }
         let _ = writeln!(out, "  {name:width$}  {boxes:14}  {share}");
     };
-    line("requirement", "open on", "of the workspace");
+    line("requirement", "open on", &format!("of {whole}"));
     for (own, name) in open.iter().zip(&names) {
         line(name, &boxes(own.boxes), &percent(own.share));
     }

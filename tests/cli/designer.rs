@@ -180,7 +180,7 @@ fn an_accuracy_with_too_much_room_says_so() {
     let text = include_str!("../designs/kernel/hexapod-accuracy.toml");
     folder.write("d.toml", text.replace("max = 0.01, max_angle = 0.05", "max = 5, max_angle = 1"));
     let run = folder.run(&["verify", "d.toml", "--max-boxes", "5"]).exits(3);
-    run.says(&["what would help: smaller bounds: within them there is to be no second pose"]);
+    run.says(&["; or smaller bounds: within them there is to be no second pose"]);
 }
 
 /// Both parts of an accuracy are enclosed however much room the design leaves in either, each with the bound on the other
@@ -232,7 +232,7 @@ fn an_accuracy_with_much_room_is_enclosed() {
     let off = answer["values"].as_array().unwrap().iter().find(|row| row["quantity"] == "accuracy");
     assert!(off.unwrap().get("certified").is_none(), "{answer}");
     let run = folder.run(&["verify", "d.toml", "--max-boxes", "50"]).exits(3);
-    run.says(&["what would help: smaller bounds: within them there is to be no second pose"]);
+    run.says(&["; or smaller bounds: within them there is to be no second pose"]);
 }
 
 /// A linear Delta as importers write it: an irrational coordinate lies between two decimals, which are one double.

@@ -419,4 +419,11 @@ fn what_no_requirement_is_about_is_noted() {
         note.starts_with("mechanism.legs.1.base_axis, line 10: ")
             && note.ends_with("no constraint_margin")
     );
+    // Ten degrees in radians.
+    let text = include_str!("../../../tests/designs/kernel/linapod-six-type.toml");
+    let turned = text.replace("angle = 8", "angle = 0.1745");
+    assert_eq!(Design::parse(text, "d.toml").unwrap().notes(), [""; 0]);
+    let [note] = &Design::parse(&turned, "d.toml").unwrap().notes()[..] else { panic!("one note") };
+    assert!(note.ends_with(": 0.1745 degrees, less than one"), "{note}");
+    assert!(note.starts_with("workspace.orientation.angle, line "), "{note}");
 }

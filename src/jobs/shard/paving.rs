@@ -194,7 +194,7 @@ impl Stretches {
         parts.write(path, cancel, |out| {
             for held in &self.0 {
                 if cancel.load(Ordering::Relaxed) {
-                    return Err(PaveError::Cancelled);
+                    return Err(PaveError::Cancelled(None));
                 }
                 held.copy(out)?;
             }

@@ -188,7 +188,7 @@ fn checked(
             break;
         }
         if cancel.load(Ordering::Relaxed) {
-            return Err(PaveError::Cancelled);
+            return Err(PaveError::Cancelled(None));
         }
         let first = batch.par_iter().map(|visited| judge.check(visited)).find_first(Result::is_err);
         first.unwrap_or(Ok(())).map_err(defect)?;

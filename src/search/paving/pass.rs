@@ -30,9 +30,9 @@ pub const DEEPEST: u32 = 90;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PaveError {
-    /// It was cancelled; what is written can be taken up again.
+    /// It was cancelled; what is written can be taken up again. The share of the parts of the tree that are, if it is known.
     #[error("interrupted")]
-    Cancelled,
+    Cancelled(Option<f64>),
     /// It was cancelled before anything was written.
     #[error("interrupted")]
     NotBegun,
@@ -64,7 +64,7 @@ pub enum PaveError {
 
 impl From<Cancelled> for PaveError {
     fn from(_: Cancelled) -> Self {
-        PaveError::Cancelled
+        PaveError::Cancelled(None)
     }
 }
 
@@ -132,7 +132,7 @@ pub fn pave(
         Resume::No => None,
     };
     let not_begun = |error| match error {
-        PaveError::Cancelled => PaveError::NotBegun,
+        PaveError::Cancelled(_) => PaveError::NotBegun,
         error => error,
     };
     let mut known = None;
@@ -312,8 +312,8 @@ impl<'a> Pass<'a> {
             (control.progress)(Progress { boxes, share });
             if ended.is_err() {
                 written(file, &grown).map_err(|e| self.io(e))?;
+                return Err(PaveError::Cancelled(Some(share)));
             }
-            ended?;
         }
         Ok(())
     }

@@ -4,9 +4,10 @@ use super::search::{halved, search, Boxes, Cell, Ends, Trial};
 use crate::search::{Budget, Control};
 use orthocert_kernel::certificate::Node;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::time::Instant;
 
-/// Nodes of the trees for which it is worth it. Of greater ones it would take long.
-const NODES: std::ops::Range<usize> = 32..1500;
+/// Nodes of the trees for which it is worth it. Of greater ones it would take seconds.
+const NODES: std::ops::Range<usize> = 32..300;
 /// Most coordinates: each asks for two boxes more.
 const MOST_COORDINATES: usize = 3;
 /// How many halves that are closed the greatest gain is worth.
@@ -58,17 +59,19 @@ impl<P: Boxes> Boxes for Ahead<'_, P> {
     }
 }
 
-/// A tree of fewer nodes than one of moderate size, or that one; and how many boxes were tried for it.
+/// A tree of fewer nodes than one of moderate size, or that one, where none is found until a deadline; and how many
+/// boxes were tried for it.
 pub(super) fn fewer(
     problem: &impl Boxes,
     nodes: Vec<Node>,
+    deadline: Option<Instant>,
     cancel: &AtomicBool,
 ) -> (Vec<Node>, usize) {
     if !NODES.contains(&nodes.len()) || problem.root().len() > MOST_COORDINATES {
         return (nodes, 0);
     }
     let ahead = Ahead { problem, boxes: AtomicUsize::new(0) };
-    let budget = Budget { max_boxes: nodes.len() - 1, deadline: None };
+    let budget = Budget { max_boxes: nodes.len() - 1, deadline };
     let ends = Ends { hopeless: true, ..Ends::default() };
     let control = &mut Control { cancel, progress: &mut |_| {} };
     let found = search(&ahead, ends, budget, control).proof();

@@ -82,6 +82,7 @@ use rayon::prelude::*;
 use sample::{Sampler, Worst};
 use search::{search, search_below, Branch, Ends, Open, Outcome};
 use std::sync::atomic::AtomicBool;
+use std::time::Instant;
 use trees::{in_ranges, with_derivatives, Ways, FEW_APART, MOST_APART};
 
 pub use refute::approximate;
@@ -200,7 +201,7 @@ pub fn verify(
         return Ok(Verification { answer: Answer::Cancelled, worst, boxes });
     }
     if found.is_proof() {
-        let (nodes, more) = fewer(&prover, found.nodes, control.cancel);
+        let (nodes, more) = fewer(&prover, found.nodes, budget.deadline, control.cancel);
         let answer = control.part(checks, |_| accepted(claim, &prover, nodes)).into();
         return Ok(Verification { answer, worst, boxes: boxes + more });
     }
@@ -299,7 +300,7 @@ pub fn concluded(
     let problem = Problem::new(claim)?;
     let worst = Sampler::new(claim, &problem)?.worst_values(FINEST);
     let prover = Prover::new(&problem)?;
-    let (nodes, more) = fewer(&prover, nodes, &AtomicBool::new(false));
+    let (nodes, more) = fewer(&prover, nodes, None, &AtomicBool::new(false));
     let answer = accepted(claim, &prover, nodes).into();
     Ok(Verification { answer, worst, boxes: boxes + more })
 }
@@ -374,9 +375,14 @@ fn in_parts(claim: &MachineClaim, control: &mut Control<'_>) -> Result<Problem, 
 
 /// A tree of fewer nodes, of a machine without tolerances; and how many boxes were tried for it. With tolerances each
 /// box takes far longer.
-fn fewer(prover: &Prover<'_>, nodes: Vec<Node>, cancel: &AtomicBool) -> (Vec<Node>, usize) {
+fn fewer(
+    prover: &Prover<'_>,
+    nodes: Vec<Node>,
+    deadline: Option<Instant>,
+    cancel: &AtomicBool,
+) -> (Vec<Node>, usize) {
     match prover.problem.tolerances().next() {
-        None => ahead::fewer(prover, nodes, cancel),
+        None => ahead::fewer(prover, nodes, deadline, cancel),
         Some(_) => (nodes, 0),
     }
 }
