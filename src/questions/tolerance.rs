@@ -10,8 +10,8 @@ use crate::exact::arithmetic::{apply, number};
 use crate::exact::decimal::shortest;
 use crate::exact::Exact;
 use crate::questions::frontier::{
-    approach, frontier, unless_cancelled, Approach, Approached, Bracket, NoAnswer, Succeeds, Walk,
-    LARGEST_FACTOR,
+    approach, frontier, unless_cancelled, Approach, Approached, Bracket, Certified, NoAnswer,
+    Succeeds, Walk, LARGEST_FACTOR,
 };
 use crate::search::solver;
 use crate::search::solver::enclose::of_one_width;
@@ -20,10 +20,12 @@ use crate::search::{Budget, Control, Stop};
 use num_rational::BigRational;
 use num_traits::{FromPrimitive as _, Signed, ToPrimitive, Zero};
 use orthocert_checker::certificate::{Certificate, Proof};
+use orthocert_kernel::certificate::{Claim, Witness};
 use orthocert_kernel::claim::{Leg, MachineClaim, Mechanism, Quantity, Vector};
 use orthocert_kernel::number::{Expression, Operator};
 use orthocert_kernel::problem::Problem;
 use std::cell::Cell;
+use std::collections::BTreeMap;
 use std::fmt;
 
 /// The first tolerance tried, relative to the greatest number of its unit.
@@ -356,6 +358,30 @@ pub fn widest(
     Ok(Bracket { certified: certified.found.or(known), refuted, out_of_time })
 }
 
+/// The claim widened by `scheme` refuted by the machine that refutes it at the same `t` with some of its kinds alone;
+/// `None` where that is not within these tolerances.
+pub fn refuted_by(
+    claim: &MachineClaim,
+    scheme: &Scheme,
+    (t, alone): &Certified,
+) -> Option<Certified> {
+    let (Claim::Machine(narrow), Proof::Witness(witness)) = (&alone.claim, &alone.proof) else {
+        return None;
+    };
+    let wide = scheme.claim(claim, t);
+    let [narrow, problem] = [narrow, &wide].map(|claim| Problem::new(claim).ok());
+    let (narrow, problem) = (narrow?, problem?);
+    let places = narrow.tolerances().map(|(place, ..)| place);
+    let known: BTreeMap<&str, &Expression> = places.zip(&witness.machine).collect();
+    let value = |(place, min, max): (&str, &Expression, &Expression)| match known.get(place) {
+        Some(value) => (*value).clone(),
+        None => apply(Operator::Div, &apply(Operator::Add, min, max), &Expression::integer(2)),
+    };
+    let machine = problem.tolerances().map(value).collect();
+    let (certificate, _) = solver::refuted(&wide, Witness { machine, ..witness.clone() }).ok()?;
+    Some((t.clone(), certificate))
+}
+
 /// From just below a tolerance that is refuted.
 fn below(walk: &Walk, t: f64) -> Walk {
     let factor = 1.0 + walk.gap;
@@ -445,5 +471,21 @@ mod tests {
         let exact = text.replace("\"310.7 ± 0.02\"", "310.7");
         let claim = Design::parse(&exact, "test.toml").unwrap().claim;
         assert_eq!(Scheme::common(&[Kind::LegLength]).own(&claim), None);
+    }
+
+    #[test]
+    fn a_machine_that_fails_with_one_kind_fails_with_more() {
+        let text = include_str!("../../tests/designs/orthoglide-312.toml");
+        let claim = Design::parse(text, "test.toml").unwrap().claim;
+        let [alone, both] = [&[Kind::LegLength][..], &[Kind::LegLength, Kind::Anchor]];
+        let [alone, both] = [alone, both].map(Scheme::common);
+        let t = BigRational::from_integer(10.into());
+        let refuted = solver::refutation(&alone.claim(&claim, &t)).unwrap();
+        let (own, found) = refuted_by(&claim, &both, &(t.clone(), refuted.clone())).unwrap();
+        assert_eq!((own, &found.claim), (t.clone(), &Claim::Machine(both.claim(&claim, &t))));
+        assert_ne!(found.claim, refuted.claim);
+        // That machine is not within a narrower tolerance.
+        assert!(refuted_by(&claim, &both, &(t / BigRational::from_integer(2.into()), refuted))
+            .is_none());
     }
 }

@@ -9,7 +9,7 @@ use crate::cli::{interrupt, Failure};
 use crate::design::Design;
 use crate::exact::Exact;
 use crate::questions::frontier::Bracket;
-use crate::questions::tolerance::{widest, Kind, Known, Scheme};
+use crate::questions::tolerance::{refuted_by, widest, Kind, Known, Scheme};
 use crate::report::{counterexample, CertificateFile, Counterexample};
 use crate::search::{turns, Budget};
 use num_rational::BigRational;
@@ -119,6 +119,8 @@ impl Question<'_> {
         let every: Vec<usize> = (0..all.len()).collect();
         let time = self.budget.left();
         self.search(bar, (&mut all, &every), Time { budget: self.budget, after, halves: false })?;
+        let (alone, common) = all.split_at_mut(kinds.len());
+        common.iter_mut().try_for_each(|asked| self.refuted_with_one_kind(asked, alone))?;
         // What time the others left, but for that of those after them, is for those whose time was up, first for those of
         // which least is known: half of what is left each, for what is not proved in as much as before wants more.
         let own = turns(all.len());
@@ -174,6 +176,23 @@ impl Question<'_> {
             true => interrupt::unless_cancelled(rows),
             false => Ok(rows),
         }
+    }
+
+    /// Of several kinds at once, what fails with one of them fails, too.
+    fn refuted_with_one_kind(&self, asked: &mut Asked, alone: &[Asked]) -> Result<(), Failure> {
+        let kinds: Vec<Kind> = asked.scheme.weights.iter().map(|(kind, _)| *kind).collect();
+        let is_of = |one: &&Asked| one.scheme.weights.iter().all(|(kind, _)| kinds.contains(kind));
+        let all = alone.iter().filter(is_of).filter_map(|one| one.known.ends.refuted.as_ref());
+        let Some(least) = all.min_by(|a, b| a.0.cmp(&b.0)) else { return Ok(()) };
+        if asked.row.is_none() || asked.refuted().is_some_and(|own| *own <= least.0) {
+            return Ok(());
+        }
+        if let Some(refuted) = refuted_by(self.claim, &asked.scheme, least) {
+            let ends = &mut asked.known.ends;
+            ends.refuted = Some(refuted);
+            asked.row = Some(row(&asked.scheme, asked.measure, ends, self.width, self.arguments)?);
+        }
+        Ok(())
     }
 
     /// Searches for some of these. Whether of one a wider tolerance is certified than was before.

@@ -512,7 +512,10 @@ pub(crate) fn certificate(claim: Claim, verdict: Verdict, proof: Proof) -> Certi
 }
 
 /// The refutation by a witness, once the checker has accepted it.
-fn refuted(claim: &MachineClaim, witness: Witness) -> Result<Confirmed, Option<Rejected>> {
+pub(crate) fn refuted(
+    claim: &MachineClaim,
+    witness: Witness,
+) -> Result<Confirmed, Option<Rejected>> {
     let proof = Proof::Witness(witness);
     let certificate = certificate(Claim::Machine(claim.clone()), Verdict::Refuted, proof);
     match check(&certificate) {
