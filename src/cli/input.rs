@@ -145,6 +145,10 @@ pub fn apart<P: AsRef<Path>>(
     inputs: impl IntoIterator<Item = P>,
 ) -> Result<(), Failure> {
     let own = identity(output);
+    // Nothing is lost of a terminal or a pipe.
+    if own.exists() && !own.is_file() {
+        return Ok(());
+    }
     if inputs.into_iter().any(|input| identity(meant(input.as_ref())) == own) {
         let path = output.shown();
         let refused = format!("--output: {path} is a file that is read; accepted: another path");

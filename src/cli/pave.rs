@@ -2,7 +2,7 @@
 
 use super::{effort, input, interrupt, print, progress::Bar, Failure, Format, Status};
 use crate::design::{written, Design};
-use crate::exact::decimal::significant;
+use crate::exact::decimal::{percent, Toward};
 use crate::exact::Exact;
 use crate::files::digest::Summed;
 use crate::files::output;
@@ -12,6 +12,8 @@ use crate::search::paving::{
     are_places, components, depth_for_edge, in_box, pave, unfinished, Components, Decider, Goal,
     PaveError, Resume, DEEPEST,
 };
+use num_rational::BigRational;
+use num_traits::{FromPrimitive, Zero};
 use orthocert_kernel::claim::{MachineClaim, Orientation, Workspace};
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::paving::{names, Reader, Rejected, Subject};
@@ -35,8 +37,8 @@ pub const MEMORY: u64 = 1024;
 The box is [workspace] min and max of the design, or --box. The region is the set of its points at which all
 requirements hold, for every machine of the tolerance; with --coordinates, the set of their values at which
 all requirements hold for every machine and all values of the others in the workspace. Without --precision and --volume-gap the gap
-that is aimed at is 0.05. A run that is interrupted, or whose time is up (exit code 3), leaves what it has done in
-PAVING.part, which --resume checks and takes up again: the paving is the same, byte for byte. So it is for every number of threads. While a run writes
+that is aimed at is 0.05. A run that is interrupted, or whose time is up (exit code 3), leaves what it has done, if
+anything, in PAVING.part, which --resume checks and takes up again: the paving is the same, byte for byte. So it is for every number of threads. While a run writes
 PAVING.part, another one is refused; nothing is said of bytes that another program put there.")]
 pub struct Arguments {
     /// The design; its workspace is the box that is searched, without --box
@@ -118,13 +120,14 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         Err(PaveError::Cancelled(share)) => {
             drop(bar);
             let shown = part.shown();
-            let held = match share.map(|share| significant(100.0 * share, 2)) {
+            let held = match share.and_then(BigRational::from_f64) {
                 None => format!("{shown} holds what is done; --resume takes it up"),
-                Some(none) if none == "0" => {
+                Some(none) if none.is_zero() => {
                     format!("{shown} holds no whole part of the tree yet: the first takes longer")
                 }
-                Some(done) => format!(
-                    "{shown} holds what is done, {done} % of the tree's parts; --resume takes it up"
+                Some(share) => format!(
+                    "{shown} holds what is done, {} of the tree's parts; --resume takes it up",
+                    percent(&share, 2, Toward::Below)
                 ),
             };
             return cancelled(time_is_up(), &held, Some(&part), arguments.format);

@@ -59,13 +59,15 @@ pub(super) fn without_unit(text: &str, at: usize) -> Option<String> {
         return None;
     }
     // The tolerance may have the unit, too.
-    let number: Vec<&str> = text.split(written).map(str::trim).collect();
-    let number = number.join(" ").trim_end().to_owned();
-    // Of a quotient of units nothing of the unit is left.
-    let number = match number.contains(char::is_alphabetic) && !number.contains("sqrt") {
-        true => text.get(..at)?.trim().to_owned(),
-        false => number,
+    let without = |part: &'_ str| {
+        // Of a quotient of units what it is divided by goes, too.
+        let by = part
+            .strip_prefix('/')
+            .map(|by| by.find(char::is_whitespace).map_or("", |end| &by[end..]));
+        by.unwrap_or(part).trim().to_owned()
     };
+    let number: Vec<String> = text.split(written).map(without).collect();
+    let number = number.join(" ").trim_end().to_owned();
     let unit = UNITS.into_iter().find(|unit| *unit == written);
     match unit.or_else(|| otherwise(&written.to_lowercase(), &UNITS)) {
         Some(unit) => Some(format!(
@@ -209,6 +211,8 @@ mod tests {
             ("333 millimeters", 4, "\"333\", and unit = \"mm\""),
             ("5 µm", 2, "\"5\", and unit = \"um\""),
             ("1000 mm/s", 5, "\"1000\", and unit = \"mm\""),
+            ("1000 mm/s ± 5e-1 mm/s", 5, "\"1000 ± 5e-1\", and unit = \"mm\""),
+            ("sqrt(2) mm/s", 8, "\"sqrt(2)\", and unit = \"mm\""),
             ("45°", 2, "\"45\", in degrees"),
         ] {
             let found = without_unit(text, at).unwrap_or_default();

@@ -8,7 +8,7 @@ use crate::search::solver::search::Open;
 use crate::search::solver::{self, Undecided};
 use crate::search::Stop;
 use orthocert_checker::Rejected;
-use orthocert_kernel::claim::{Bound, Workspace};
+use orthocert_kernel::claim::{Bound, Orientation, Workspace};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -132,11 +132,14 @@ impl Facts<'_> {
         }
     }
 
-    /// The box around the workspace, in parts of it: boxes of a cylinder are parts of that box.
+    /// The box around the workspace, in parts of it: boxes of a cylinder are parts of that box. With a set of
+    /// orientations, which is a part of its box that is not known, shares are of the box around all.
     fn box_of_workspace(&self) -> f64 {
-        match self.claim.workspace {
-            Workspace::Cylinder { .. } => std::f64::consts::FRAC_PI_4.recip().next_up(),
-            Workspace::Box { .. } | Workspace::Cube { .. } => 1.0,
+        match (&self.claim.workspace, &self.claim.orientation) {
+            (Workspace::Cylinder { .. }, None | Some(Orientation::Range(_))) => {
+                std::f64::consts::FRAC_PI_4.recip().next_up()
+            }
+            _ => 1.0,
         }
     }
 

@@ -446,7 +446,7 @@ fn open_rows(out: &mut String, open: &[&OpenRequirement], whole: &str) {
             wrap(out, name, 2);
             name = "";
         }
-        let _ = writeln!(out, "  {name:width$}  {boxes:14}  {share}");
+        let _ = writeln!(out, "  {name:width$}  {boxes:15}  {share}");
     };
     line("requirement", "open on", &format!("of {whole}"));
     for (own, name) in open.iter().zip(&names) {

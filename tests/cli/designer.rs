@@ -308,7 +308,7 @@ fn what_is_open_is_told_once() {
     assert!(told.iter().any(|words| words.contains("base joint")), "{told:?}");
     assert_eq!(told.len(), open.len(), "{open:?}");
     let text = folder.run(&["verify", "d.toml", "--max-boxes", "1"]).exits(3);
-    let text = text.says(&["in 1 region: 100 % of the workspace"]);
+    let text = text.says(&["in 1 region: 100 % of the box around the workspace"]);
     assert!(!text.stdout.contains("volume"), "{}", text.stdout);
 }
 

@@ -119,8 +119,7 @@ impl Question<'_> {
         let every: Vec<usize> = (0..all.len()).collect();
         let time = self.budget.left();
         self.search(bar, (&mut all, &every), Time { budget: self.budget, after, halves: false })?;
-        let (alone, common) = all.split_at_mut(kinds.len());
-        common.iter_mut().try_for_each(|asked| self.refuted_with_one_kind(asked, alone))?;
+        self.refuted_with_one_kind(all.split_at_mut(kinds.len()))?;
         // What time the others left, but for that of those after them, is for those whose time was up, first for those of
         // which least is known: half of what is left each, for what is not proved in as much as before wants more.
         let own = turns(all.len());
@@ -139,6 +138,7 @@ impl Question<'_> {
             let time = Time { budget, after, halves: true };
             improved = self.search(bar, (&mut all, &short), time)?;
         }
+        self.refuted_with_one_kind(all.split_at_mut(kinds.len()))?;
         let weights = kinds.iter().zip(&all);
         let weights = weights.filter_map(|(kind, asked)| Some((*kind, asked.certified()?.clone())));
         let weights: Vec<_> = weights.collect();
@@ -178,19 +178,24 @@ impl Question<'_> {
         }
     }
 
-    /// Of several kinds at once, what fails with one of them fails, too.
-    fn refuted_with_one_kind(&self, asked: &mut Asked, alone: &[Asked]) -> Result<(), Failure> {
-        let kinds: Vec<Kind> = asked.scheme.weights.iter().map(|(kind, _)| *kind).collect();
-        let is_of = |one: &&Asked| one.scheme.weights.iter().all(|(kind, _)| kinds.contains(kind));
-        let all = alone.iter().filter(is_of).filter_map(|one| one.known.ends.refuted.as_ref());
-        let Some(least) = all.min_by(|a, b| a.0.cmp(&b.0)) else { return Ok(()) };
-        if asked.row.is_none() || asked.refuted().is_some_and(|own| *own <= least.0) {
-            return Ok(());
-        }
-        if let Some(refuted) = refuted_by(self.claim, &asked.scheme, least) {
-            let ends = &mut asked.known.ends;
-            ends.refuted = Some(refuted);
-            asked.row = Some(row(&asked.scheme, asked.measure, ends, self.width, self.arguments)?);
+    /// What fails with one kind alone fails with several at once, where the machine is among these.
+    fn refuted_with_one_kind(
+        &self,
+        (alone, common): (&mut [Asked], &mut [Asked]),
+    ) -> Result<(), Failure> {
+        for asked in common.iter_mut().filter(|asked| asked.row.is_some()) {
+            let kinds: Vec<Kind> = asked.scheme.weights.iter().map(|(kind, _)| *kind).collect();
+            let is_of =
+                |one: &&Asked| one.scheme.weights.iter().all(|(kind, _)| kinds.contains(kind));
+            let all = alone.iter().filter(is_of).filter_map(|one| one.known.ends.refuted.as_ref());
+            let least = all.min_by(|a, b| a.0.cmp(&b.0));
+            let nearer = least.filter(|(t, _)| asked.refuted().is_none_or(|own| t < own));
+            let refuted = nearer.and_then(|one| refuted_by(self.claim, &asked.scheme, one));
+            if refuted.is_some() {
+                let Asked { scheme, measure, known, row: told } = asked;
+                known.ends.refuted = refuted;
+                *told = Some(row(scheme, *measure, &known.ends, self.width, self.arguments)?);
+            }
         }
         Ok(())
     }
