@@ -1,7 +1,7 @@
 //! `orthocert atlas`, and what it has in common with a merge of parts of an atlas.
 
-use super::effort::{time, Work};
-use super::{certify, input, interrupt, pave, print, Failure, Format, Status};
+use super::effort::{deadline, Work};
+use super::{certify, input, interrupt, print, Failure, Format, Status};
 use crate::cli::progress::Bar;
 use crate::design::{AtlasDesign, Objective};
 use crate::exact::decimal::{counted, grouped};
@@ -73,8 +73,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         None => beside(&arguments.atlas).with_extension("atlas"),
     };
     probe(&folder)?;
-    let timeout = arguments.timeout.as_deref().map(|text| time("--timeout", text)).transpose()?;
-    let deadline = timeout.and_then(|timeout| started.checked_add(timeout));
+    let deadline = deadline(arguments.timeout.as_deref(), started)?;
     let mut kept = kept(&design, &folder, arguments)?;
     interrupt::grant();
     arguments.work.start_threads()?;
@@ -126,7 +125,7 @@ fn left(stopped: Stopped, kept: &Kept, folder: &Path, format: Format) -> Result<
          --resume takes it up",
         part.shown()
     );
-    pave::cancelled(time_is_up, &held, Some(&part), format)
+    interrupt::unfinished(time_is_up, &held, Some(&part), format)
 }
 
 /// Finds out, before the work, whether the map can be written there.

@@ -100,7 +100,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     if let Some(design) = &design {
         input::tell_notes(design, arguments.design.as_deref(), arguments.quiet);
     }
-    let begun = Begun::new(&arguments.certificate)?;
+    let begun = Begun::new(&arguments.certificate, "a certificate or a paving")?;
     if paving::is_paving(&begun.start) {
         if arguments.formulas {
             return Err(without_formulas("a paving"));

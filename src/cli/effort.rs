@@ -48,11 +48,9 @@ impl Effort {
     /// As [`budget`](Self::budget), with a default number of boxes of the command's own.
     pub fn budget_or(&self, boxes: u64, started: Instant) -> Result<Budget, Failure> {
         let max_boxes = self.max_boxes.unwrap_or(boxes);
-        let timeout = self.timeout.as_deref().map(|text| time("--timeout", text)).transpose()?;
         Ok(Budget {
             max_boxes: usize::try_from(max_boxes).unwrap_or(MOST_NODES).min(MOST_NODES),
-            // A deadline beyond what the clock can tell is none.
-            deadline: timeout.and_then(|timeout| started.checked_add(timeout)),
+            deadline: deadline(self.timeout.as_deref(), started)?,
         })
     }
 
@@ -113,6 +111,12 @@ pub fn start_threads(threads: Option<u64>) -> Result<(), Failure> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
     pool.build_global()
         .map_err(|error| Failure::Output(format!("{threads} threads cannot be started: {error}")))
+}
+
+/// The end of the time that `--timeout` gives to what began at `started`; none beyond what the clock can tell.
+pub fn deadline(timeout: Option<&str>, started: Instant) -> Result<Option<Instant>, Failure> {
+    let timeout = timeout.map(|text| time("--timeout", text)).transpose()?;
+    Ok(timeout.and_then(|timeout| started.checked_add(timeout)))
 }
 
 /// The time that an option's value is: a number with a unit, in seconds without one.

@@ -105,7 +105,7 @@ fn mesh(
     output: &Path,
     file: fn(&Surface) -> Result<Vec<u8>, SurfaceError>,
 ) -> Result<Status, Failure> {
-    let begun = Begun::new(path)?;
+    let begun = Begun::new(path, "a paving")?;
     if !is_paving(&begun.start) {
         let path = path.shown();
         return Err(Failure::Input(format!(

@@ -38,11 +38,7 @@ pub fn tell_notes(design: &Design, path: Option<&Path>, quiet: bool) {
 
 /// The bytes of a certificate, one more than are admissible at most: the checker refuses those.
 pub fn certificate(path: &Path) -> Result<Vec<u8>, Failure> {
-    if path.is_dir() {
-        let accepted = "it is a folder; accepted: a certificate (a JSON file)";
-        return Err(Failure::Input(format!("{}: cannot be read: {accepted}", path.shown())));
-    }
-    Ok(Begun::new(path)?.start)
+    Ok(Begun::new(path, "a certificate (a JSON file)")?.start)
 }
 
 /// A file of which the beginning was read, as much as a certificate may have and a byte more; what
@@ -54,13 +50,13 @@ pub struct Begun {
 }
 
 impl Begun {
-    /// Reads the beginning.
-    pub fn new(path: &Path) -> Result<Self, Failure> {
+    /// Reads the beginning of what is accepted.
+    pub fn new(path: &Path, accepted: &str) -> Result<Self, Failure> {
         let unreadable = |reason: &dyn std::fmt::Display| {
             Failure::Input(format!("{}: cannot be read: {reason}", path.shown()))
         };
         if path.is_dir() {
-            return Err(unreadable(&"it is a folder; accepted: a certificate or a paving"));
+            return Err(unreadable(&format!("it is a folder; accepted: {accepted}")));
         }
         let mut start = Vec::new();
         let mut rest = reader(meant(path)).map_err(|error| unreadable(&error))?;

@@ -3,8 +3,10 @@
 //! The search looks at [`cancelled`] between batches of boxes. What does not look, such as the exact
 //! check of a large proof, is ended with the process, but never while a file is being written.
 
-use super::{print, progress, Failure};
+use super::{print, progress, Failure, Format, Status};
 use crate::files::output;
+use serde::Serialize;
+use std::path::Path;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::thread;
@@ -68,6 +70,35 @@ pub fn unless_cancelled<T>(answer: T) -> Result<T, Failure> {
         true => Err(Failure::Interrupted),
         false => Ok(answer),
     }
+}
+
+/// The answer for scripts where the time was up.
+#[derive(Serialize)]
+struct Unfinished {
+    out_of_time: bool,
+    /// What `--resume` takes up.
+    part: Option<String>,
+}
+
+/// Tells what a run leaves that did not end.
+pub fn unfinished(
+    time_is_up: bool,
+    left: &str,
+    part: Option<&Path>,
+    format: Format,
+) -> Result<Status, Failure> {
+    if !time_is_up {
+        if part.is_some() {
+            print::diagnostic(left);
+        }
+        return Err(Failure::Interrupted);
+    }
+    print::diagnostic(&format!("the time was up: {left}"));
+    if format == Format::Json {
+        let part = part.map(|part| part.to_string_lossy().into_owned());
+        print::json(&Unfinished { out_of_time: true, part })?;
+    }
+    Ok(Status::Undecided)
 }
 
 /// What an answer that is not complete says of itself, for people.

@@ -17,7 +17,6 @@ use num_traits::{FromPrimitive, Zero};
 use orthocert_kernel::claim::{MachineClaim, Orientation, Workspace};
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::paving::{names, Reader, Rejected, Subject};
-use serde::Serialize;
 use std::cmp::Ordering;
 use std::fs::{self, OpenOptions};
 use std::io::{BufRead, BufReader};
@@ -92,9 +91,7 @@ pub struct Arguments {
 /// Runs it.
 pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let started = Instant::now();
-    let timeout =
-        arguments.timeout.as_deref().map(|text| effort::time("--timeout", text)).transpose()?;
-    let deadline = timeout.and_then(|timeout| started.checked_add(timeout));
+    let deadline = effort::deadline(arguments.timeout.as_deref(), started)?;
     let design = input::design(Some(&arguments.design), arguments.quiet)?;
     let claim = &searched(&design.claim, arguments.search_box.as_deref())?;
     let coordinates = chosen(&design, claim, arguments.coordinates.as_deref())?;
@@ -130,11 +127,16 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
                     percent(&share, 2, Toward::Below)
                 ),
             };
-            return cancelled(time_is_up(), &held, Some(&part), arguments.format);
+            return interrupt::unfinished(time_is_up(), &held, Some(&part), arguments.format);
         }
         Err(PaveError::NotBegun) => {
             drop(bar);
-            return cancelled(time_is_up(), "nothing was written", None, arguments.format);
+            return interrupt::unfinished(
+                time_is_up(),
+                "nothing was written",
+                None,
+                arguments.format,
+            );
         }
         Err(error @ (PaveError::Claim(_) | PaveError::Resume(..))) => {
             return Err(Failure::input(error))
@@ -162,35 +164,6 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
 pub fn answer(report: &PavingReport, format: Format, quiet: bool) -> Result<Status, Failure> {
     print::told(format, report, || report.text(quiet))?;
     Ok(if report.reached { Status::Done } else { Status::Undecided })
-}
-
-/// The answer for scripts where the time was up.
-#[derive(Serialize)]
-struct Unfinished {
-    out_of_time: bool,
-    /// What `--resume` takes up.
-    part: Option<String>,
-}
-
-/// Tells what a run leaves that did not end.
-pub fn cancelled(
-    time_is_up: bool,
-    left: &str,
-    part: Option<&Path>,
-    format: Format,
-) -> Result<Status, Failure> {
-    if !time_is_up {
-        if part.is_some() {
-            print::diagnostic(left);
-        }
-        return Err(Failure::Interrupted);
-    }
-    print::diagnostic(&format!("the time was up: {left}"));
-    if format == Format::Json {
-        let part = part.map(|part| part.to_string_lossy().into_owned());
-        print::json(&Unfinished { out_of_time: true, part })?;
-    }
-    Ok(Status::Undecided)
 }
 
 /// The claim over the box that `--box` says, where it does.

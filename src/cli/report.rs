@@ -82,7 +82,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let path = &arguments.certificate;
     let design = arguments.design.as_deref().map(Design::read).transpose();
     let design = design.map_err(Failure::input)?;
-    let begun = Begun::new(path)?;
+    let begun = Begun::new(path, "a certificate or a paving")?;
     let target = arguments.target()?;
     output::probe(&target)?;
     if is_paving(&begun.start) {

@@ -59,14 +59,12 @@ pub(super) fn without_unit(text: &str, at: usize) -> Option<String> {
         return None;
     }
     // The tolerance may have the unit, too.
-    let without = |part: &'_ str| {
+    let number = text.split(written).map(|part| match part.strip_prefix('/') {
         // Of a quotient of units what it is divided by goes, too.
-        let by = part
-            .strip_prefix('/')
-            .map(|by| by.find(char::is_whitespace).map_or("", |end| &by[end..]));
-        by.unwrap_or(part).trim().to_owned()
-    };
-    let number: Vec<String> = text.split(written).map(without).collect();
+        Some(by) => by.trim_start_matches(|c: char| !c.is_whitespace()).trim(),
+        None => part.trim(),
+    });
+    let number: Vec<&str> = number.collect();
     let number = number.join(" ").trim_end().to_owned();
     let unit = UNITS.into_iter().find(|unit| *unit == written);
     match unit.or_else(|| otherwise(&written.to_lowercase(), &UNITS)) {
